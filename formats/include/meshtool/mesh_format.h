@@ -1,0 +1,104 @@
+/* Mesh files: one table of formats, reading by content, writing with what is lost said. */
+#ifndef MESHTOOL_MESH_FORMAT_H
+#define MESHTOOL_MESH_FORMAT_H
+
+#include <meshtool/mesh.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a format can hold. What a mesh has beyond this is reported as lost when it is written. */
+typedef enum mt_ability {
+    MT_HOLDS_POLYGONS = 1u << 0,       /* faces of more than 3 sides */
+    MT_HOLDS_INDICES = 1u << 1,        /* shared vertices; without it isolated vertices are lost */
+    MT_HOLDS_WIRES = 1u << 2,
+    MT_HOLDS_POINTS = 1u << 3,
+    MT_HOLDS_VERTEX_NORMALS = 1u << 4,
+    MT_HOLDS_CORNER_NORMALS = 1u << 5,
+    MT_HOLDS_FACE_NORMALS = 1u << 6,
+    MT_HOLDS_VERTEX_UVS = 1u << 7,
+    MT_HOLDS_CORNER_UVS = 1u << 8,
+    MT_HOLDS_VERTEX_COLORS = 1u << 9,
+    MT_HOLDS_FACE_COLORS = 1u << 10,
+    MT_HOLDS_GENERIC = 1u << 11,       /* attributes known by name on vertices and faces */
+    MT_HOLDS_GROUPS = 1u << 12,        /* groups, objects, materials, smoothing */
+    MT_HOLDS_SOLIDS = 1u << 13,
+    MT_HOLDS_CREASES = 1u << 14,       /* sharpness on edges and vertices */
+    MT_HOLDS_F64 = 1u << 15            /* positions in double precision */
+} mt_ability;
+
+typedef enum mt_encoding { MT_ENCODING_DEFAULT, MT_ENCODING_ASCII, MT_ENCODING_BINARY, MT_ENCODING_BINARY_BIG } mt_encoding;
+
+typedef enum mt_precision { MT_PRECISION_AUTO, MT_PRECISION_F32, MT_PRECISION_F64 } mt_precision;
+
+/* All zeros means the defaults. */
+typedef struct mt_mesh_read_options {
+    const char *format;     /* an extension that overrides recognition by content; NULL: recognise */
+    mt_precision precision; /* auto: what the file holds (text and doubles f64, floats f32) */
+} mt_mesh_read_options;
+
+typedef struct mt_mesh_write_options {
+    const char *format;   /* an extension that overrides the path's; NULL: the path's, or "ply" for pipes */
+    mt_encoding encoding; /* default: binary where the format has both */
+    bool strict_loss;     /* refuse with MT_ERROR_LOSS instead of losing anything */
+    bool no_clobber;      /* refuse with MT_ERROR_IO when the file exists */
+} mt_mesh_write_options;
+
+typedef struct mt_input mt_input;   /* bytes to read: file, standard input or memory (formats/stream) */
+typedef struct mt_output mt_output; /* bytes to write, renamed into place at the end */
+
+/* One format. Each file in formats/mesh ends in its record; formats/mesh/mesh_formats.c lists them. */
+typedef struct mt_mesh_format {
+    const char *name;              /* as JSON and messages call it: "obj" */
+    const char *title;             /* for people: "Wavefront OBJ" */
+    const char *const *extensions; /* lower case without the dot, NULL-terminated; the first is preferred */
+    unsigned abilities;            /* of mt_ability */
+    bool has_ascii, has_binary, has_binary_big;
+    /* How sure the first bytes make it: 0 not this format, 100 certain. `size` bytes of a file of
+     * `total` bytes (UINT64_MAX when unknown) are given. */
+    int (*sniff)(const uint8_t *bytes, size_t size, uint64_t total);
+    mt_status (*read)(mt_context *context, mt_input *input, const mt_mesh_read_options *options, mt_mesh **out);
+    mt_status (*write)(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options,
+                       mt_output *output);
+} mt_mesh_format;
+
+/* The table, NULL-terminated. */
+const mt_mesh_format *const *mt_mesh_formats(void);
+
+/* The format with that extension (any case), or NULL. */
+const mt_mesh_format *mt_mesh_format_by_extension(const char *extension);
+
+/* The format that a path's extension names for writing, options->format first; "-" and device or pipe
+ * paths get "ply". NULL with MT_ERROR_ARGUMENT recorded, naming the known ones, when there is none. */
+const mt_mesh_format *mt_mesh_format_for_output(mt_context *context, const char *path,
+                                                const mt_mesh_write_options *options);
+
+/* Reads a mesh. path "-" is standard input. *format (may be NULL) receives the format recognised. */
+mt_status mt_mesh_read_file(mt_context *context, const char *path, const mt_mesh_read_options *options, mt_mesh **out,
+                            const mt_mesh_format **format);
+
+/* The same from memory; `name` stands in messages, and its extension may help recognition. */
+mt_status mt_mesh_read_memory(mt_context *context, const char *name, const void *bytes, size_t size,
+                              const mt_mesh_read_options *options, mt_mesh **out, const mt_mesh_format **format);
+
+/* What writing the mesh in a format would lose: short phrases ("corner normals", "2 wires"). */
+typedef struct mt_loss {
+    size_t count;
+    char items[16][64];
+} mt_loss;
+void mt_mesh_format_loss(const mt_mesh *mesh, const mt_mesh_format *format, mt_loss *out);
+
+/* Writes a mesh beside its place and renames it there; a failed run leaves the old file and nothing new.
+ * "-" is standard output; devices and pipes are written into. loss may be NULL. */
+mt_status mt_mesh_write_file(mt_context *context, const mt_mesh *mesh, const char *path,
+                             const mt_mesh_write_options *options, mt_loss *loss);
+
+/* The same into memory: *bytes is the caller's, freed with mt_free. */
+mt_status mt_mesh_write_memory(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options,
+                               void **bytes, size_t *size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

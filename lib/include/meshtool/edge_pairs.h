@@ -1,0 +1,61 @@
+/* Edge pairing: which corners' sides lie on the same edge. Everything that needs connectivity starts
+ * from this; nothing pairs edges by itself.
+ *
+ * Corner c of a face has the side from its vertex to the next corner's vertex. Side and corner are
+ * used for each other. An edge is an unordered pair of distinct vertices that is a side of some face. */
+#ifndef MESHTOOL_EDGE_PAIRS_H
+#define MESHTOOL_EDGE_PAIRS_H
+
+#include <meshtool/mesh.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum mt_edge_class {
+    MT_EDGE_NONE,         /* a side a = b counts as no side */
+    MT_EDGE_BOUNDARY,     /* one side */
+    MT_EDGE_REGULAR,      /* two sides in opposite directions */
+    MT_EDGE_MISORIENTED,  /* two sides in the same direction */
+    MT_EDGE_NON_MANIFOLD  /* three sides or more */
+} mt_edge_class;
+
+typedef struct mt_edge_pairs {
+    mt_index corner_count;
+    mt_index edge_count;
+    mt_index boundary_count;
+    mt_index regular_count;
+    mt_index misoriented_count;
+    mt_index non_manifold_count;
+    mt_index degenerate_side_count;
+    mt_index *next_side; /* per corner the next corner with the same edge, in ascending order, and from the last
+                            to the first: itself at a boundary, the twin at a regular edge; MT_NONE for a = b */
+} mt_edge_pairs;
+
+/* Pairs all sides. O(corners) time; 4 bytes a corner kept. */
+mt_status mt_edge_pairs_create(mt_context *context, const mt_mesh *mesh, mt_edge_pairs **out);
+void mt_edge_pairs_destroy(mt_context *context, mt_edge_pairs *pairs);
+
+/* The class of the edge of a corner's side. O(1). */
+mt_edge_class mt_edge_class_of(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_index corner);
+
+/* The twin across a regular edge, MT_NONE otherwise. */
+mt_index mt_edge_twin(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_index corner);
+
+/* Whether the corner is the lowest of its edge: edges are numbered in the order of these. */
+static inline bool mt_edge_is_first(const mt_edge_pairs *pairs, mt_index corner)
+{
+    mt_index c = pairs->next_side[corner];
+    if (c == MT_NONE || c < corner) {
+        return false;
+    }
+    while (c > corner) {
+        c = pairs->next_side[c];
+    }
+    return c == corner;
+}
+
+#ifdef __cplusplus
+}
+#endif
+#endif

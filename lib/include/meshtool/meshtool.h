@@ -1,0 +1,35 @@
+/* meshtool: check, mend, refine, measure and see meshes. This header is the table of contents. */
+#ifndef MESHTOOL_MESHTOOL_H
+#define MESHTOOL_MESHTOOL_H
+
+/* The ground floor */
+#include <meshtool/types.h>      /* indices, status codes, number types */
+#include <meshtool/context.h>    /* memory, threads, progress, errors, explain */
+#include <meshtool/checked.h>    /* sizes that say when they overflow */
+#include <meshtool/vector.h>     /* three doubles */
+#include <meshtool/elementary.h> /* sin, cos, log ... with the same bits everywhere */
+#include <meshtool/predicates.h> /* exact orientation */
+
+/* The hub */
+#include <meshtool/attribute.h>   /* normals, UVs, colours */
+#include <meshtool/mesh.h>        /* vertices, polygons, labels, creases */
+#include <meshtool/generate.h>    /* cube, torus, teapot ... */
+#include <meshtool/triangulate.h> /* n-gons to triangles, in one way */
+
+/* Connectivity */
+#include <meshtool/edge_pairs.h> /* which sides share an edge */
+#include <meshtool/halfedge.h>   /* half-edges in pairs */
+
+/* Algorithms */
+#include <meshtool/manifold.h>  /* the check that finds everything */
+#include <meshtool/subdivide.h> /* Catmull-Clark */
+
+/* Pictures */
+#include <meshtool/image.h>   /* float raster */
+#include <meshtool/preview.h> /* a picture of any mesh */
+
+/* Files */
+#include <meshtool/mesh_format.h>  /* OBJ, OFF, PLY, STL */
+#include <meshtool/image_format.h> /* PNG, PPM */
+
+#endif

@@ -1,0 +1,35 @@
+/* A picture of any mesh, with no option needed: framed by its bounds, lit, smooth where smooth, creased where
+ * creased, two-sided. */
+#ifndef MESHTOOL_PREVIEW_H
+#define MESHTOOL_PREVIEW_H
+
+#include <meshtool/image.h>
+#include <meshtool/mesh.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum mt_background { MT_BACKGROUND_DEFAULT, MT_BACKGROUND_COLOR, MT_BACKGROUND_TRANSPARENT } mt_background;
+
+/* All zeros means the defaults. */
+typedef struct mt_preview_options {
+    uint32_t width, height;          /* pixels; 0: 1024 */
+    mt_background background;        /* default: a light grey that fades downwards */
+    double background_color[3];      /* sRGB, 0 to 1, for MT_BACKGROUND_COLOR */
+    double crease_degrees;           /* faces meeting at more than this show an edge; 0: 40 */
+    unsigned samples;                /* per pixel, a square number; 0: 16 */
+    const unsigned char *face_colors;   /* sRGB triples, one a face, NULL: the mesh's colours or a neutral one */
+    const unsigned char *vertex_marks;  /* not 0: the vertex is drawn as a dot; NULL: none */
+    const mt_index *edge_marks;      /* pairs of vertices drawn as lines over the mesh */
+    size_t edge_mark_count;
+} mt_preview_options;
+
+/* Draws the mesh. The picture is linear, RGBA when transparent and RGB otherwise, and the same bytes for any
+ * number of threads. MT_ERROR_INVALID_MESH, with the reason, when there is nothing to see: no finite vertex. */
+mt_status mt_preview(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options, mt_image **out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
