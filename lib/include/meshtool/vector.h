@@ -70,7 +70,8 @@ static inline bool mt_vec3_is_finite(mt_vec3 a)
 mt_vec3 mt_vec3_normalize(mt_vec3 a);
 
 /* The power of two 2^-e for which the largest absolute component of scaled vectors lies in [0.5, 1):
- * multiplying by it is exact as long as nothing becomes subnormal. 1 for zero and non-finite input. */
+ * multiplying by it is exact as long as nothing becomes subnormal. 2^1023, the largest there is, for
+ * anything below 2^-1023, which it brings to at least 2^-51. 1 for zero and non-finite input. */
 double mt_power_of_two_scale(double largest);
 
 #ifdef __cplusplus
