@@ -82,7 +82,8 @@ static void *record_missing_memory(mt_context *context, uint64_t size)
         mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "%llu bytes more would exceed the memory limit of %llu (%llu in use)",
                 (unsigned long long)size, (unsigned long long)limit, (unsigned long long)mt_context_bytes(context));
     } else {
-        mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "out of memory: %llu bytes could not be had", (unsigned long long)size);
+        mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "out of memory: %llu bytes could not be had",
+                (unsigned long long)size);
     }
     return NULL;
 }

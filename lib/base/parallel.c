@@ -31,6 +31,7 @@ void mt_parallel_for(mt_context *context, uint64_t count, uint64_t grain, mt_par
         return;
     }
     uint64_t block_count = (count - 1) / grain + 1;
+    (void)context; /* unused where OpenMP is switched off */
 #ifdef MESHTOOL_OPENMP
     if (block_count > 1 && context->thread_count > 1) {
         int threads = context->thread_count < block_count ? (int)context->thread_count : (int)block_count;

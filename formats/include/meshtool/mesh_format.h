@@ -10,8 +10,8 @@ extern "C" {
 
 /* What a format can hold. What a mesh has beyond this is reported as lost when it is written. */
 typedef enum mt_ability {
-    MT_HOLDS_POLYGONS = 1u << 0,       /* faces of more than 3 sides */
-    MT_HOLDS_INDICES = 1u << 1,        /* shared vertices; without it isolated vertices are lost */
+    MT_HOLDS_POLYGONS = 1u << 0, /* faces of more than 3 sides */
+    MT_HOLDS_INDICES = 1u << 1,  /* shared vertices; without it isolated vertices are lost */
     MT_HOLDS_WIRES = 1u << 2,
     MT_HOLDS_POINTS = 1u << 3,
     MT_HOLDS_VERTEX_NORMALS = 1u << 4,
@@ -21,14 +21,19 @@ typedef enum mt_ability {
     MT_HOLDS_CORNER_UVS = 1u << 8,
     MT_HOLDS_VERTEX_COLORS = 1u << 9,
     MT_HOLDS_FACE_COLORS = 1u << 10,
-    MT_HOLDS_GENERIC = 1u << 11,       /* attributes known by name on vertices and faces */
-    MT_HOLDS_GROUPS = 1u << 12,        /* groups, objects, materials, smoothing */
+    MT_HOLDS_GENERIC = 1u << 11, /* attributes known by name on vertices and faces */
+    MT_HOLDS_GROUPS = 1u << 12,  /* groups, objects, materials, smoothing */
     MT_HOLDS_SOLIDS = 1u << 13,
-    MT_HOLDS_CREASES = 1u << 14,       /* sharpness on edges and vertices */
-    MT_HOLDS_F64 = 1u << 15            /* positions in double precision */
+    MT_HOLDS_CREASES = 1u << 14, /* sharpness on edges and vertices */
+    MT_HOLDS_F64 = 1u << 15      /* positions in double precision */
 } mt_ability;
 
-typedef enum mt_encoding { MT_ENCODING_DEFAULT, MT_ENCODING_ASCII, MT_ENCODING_BINARY, MT_ENCODING_BINARY_BIG } mt_encoding;
+typedef enum mt_encoding {
+    MT_ENCODING_DEFAULT,
+    MT_ENCODING_ASCII,
+    MT_ENCODING_BINARY,
+    MT_ENCODING_BINARY_BIG
+} mt_encoding;
 
 typedef enum mt_precision { MT_PRECISION_AUTO, MT_PRECISION_F32, MT_PRECISION_F64 } mt_precision;
 

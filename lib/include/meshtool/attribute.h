@@ -28,14 +28,14 @@ typedef enum mt_interpolation {
 } mt_interpolation;
 
 typedef struct mt_attribute {
-    char *name;            /* never NULL; "" where the format has no name for it */
+    char *name; /* never NULL; "" where the format has no name for it */
     mt_semantic semantic;
     mt_domain domain;
     mt_type type;
     uint32_t component_count;
     mt_index value_count;
-    void *values;          /* value_count * component_count numbers of `type`, tightly packed */
-    mt_index *indices;     /* per element of the domain its value, MT_NONE: it has none; NULL: element i has value i */
+    void *values;      /* value_count * component_count numbers of `type`, tightly packed */
+    mt_index *indices; /* per element of the domain its value, MT_NONE: it has none; NULL: element i has value i */
 } mt_attribute;
 
 /* The table's answer for a semantic and type. */

@@ -89,7 +89,7 @@ mt_status mt_fail_at(mt_context *context, mt_status status, mt_place place, cons
 void mt_warn(mt_context *context, const char *format, ...) MT_PRINTF(2, 3);
 
 /* Memory. Sizes are counted against the limit. A size of 0 gives a valid block. Blocks of 4 MB
- * and more are aligned to 2 MB and advised to huge pages: fresh 4 KB pages cost more than the
+ * and more begin on a 2 MB page and are advised to huge pages: fresh 4 KB pages cost more than the
  * algorithms that fill them. All blocks are aligned to 64 bytes. Free with mt_free, with the same
  * context. mt_allocate and its kin record MT_ERROR_OUT_OF_MEMORY and return NULL on failure;
  * mt_try_allocate only returns NULL, and may be called inside a parallel body, as may mt_free. */
@@ -117,8 +117,8 @@ void mt_parallel_for(mt_context *context, uint64_t count, uint64_t grain, mt_par
 
 /* The record behind --explain: one part built or skipped. */
 typedef struct mt_part {
-    const char *name;    /* "edge pairs", "half-edges", "depth buffer"; a string literal */
-    const char *reason;  /* why it was built or skipped; a string literal, may be NULL */
+    const char *name;   /* "edge pairs", "half-edges", "depth buffer"; a string literal */
+    const char *reason; /* why it was built or skipped; a string literal, may be NULL */
     bool built;
     double milliseconds; /* wall time */
     uint64_t bytes;      /* growth of the bytes held while it was built; 0 when it shrank */

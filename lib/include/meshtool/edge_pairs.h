@@ -13,11 +13,11 @@ extern "C" {
 #endif
 
 typedef enum mt_edge_class {
-    MT_EDGE_NONE,         /* a side a = b counts as no side */
-    MT_EDGE_BOUNDARY,     /* one side */
-    MT_EDGE_REGULAR,      /* two sides in opposite directions */
-    MT_EDGE_MISORIENTED,  /* two sides in the same direction */
-    MT_EDGE_NON_MANIFOLD  /* three sides or more */
+    MT_EDGE_NONE,        /* a side a = b counts as no side */
+    MT_EDGE_BOUNDARY,    /* one side */
+    MT_EDGE_REGULAR,     /* two sides in opposite directions */
+    MT_EDGE_MISORIENTED, /* two sides in the same direction */
+    MT_EDGE_NON_MANIFOLD /* three sides or more */
 } mt_edge_class;
 
 typedef struct mt_edge_pairs {

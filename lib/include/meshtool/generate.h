@@ -16,9 +16,9 @@ typedef struct mt_generate_options {
 } mt_generate_options;
 
 typedef struct mt_primitive {
-    const char *name;       /* "cube" */
-    const char *summary;    /* one line for help */
-    mt_index resolution;    /* the default; 0: takes none */
+    const char *name;               /* "cube" */
+    const char *summary;            /* one line for help */
+    mt_index resolution;            /* the default; 0: takes none */
     const char *resolution_meaning; /* NULL when it takes none */
 } mt_primitive;
 

@@ -13,14 +13,14 @@ extern "C" {
 typedef struct mt_halfedge_mesh {
     mt_index vertex_count;
     mt_index face_count;
-    mt_index halfedge_count;    /* twice the edges */
-    mt_index *next;             /* following half-edge of the same face or boundary loop */
+    mt_index halfedge_count; /* twice the edges */
+    mt_index *next;          /* following half-edge of the same face or boundary loop */
     mt_index *previous;
-    mt_index *head;             /* the vertex it points to */
-    mt_index *face;             /* MT_NONE on the boundary */
-    mt_index *vertex_halfedge;  /* one half-edge pointing to the vertex, a boundary one where there is one;
-                                   MT_NONE for isolated vertices */
-    mt_index *face_halfedge;    /* the half-edge of the face's first corner's side */
+    mt_index *head;            /* the vertex it points to */
+    mt_index *face;            /* MT_NONE on the boundary */
+    mt_index *vertex_halfedge; /* one half-edge pointing to the vertex, a boundary one where there is one;
+                                  MT_NONE for isolated vertices */
+    mt_index *face_halfedge;   /* the half-edge of the face's first corner's side */
 } mt_halfedge_mesh;
 
 /* Builds the structure. MT_ERROR_NOT_MANIFOLD or MT_ERROR_NOT_ORIENTED names the first offender (edge, vertex

@@ -18,7 +18,7 @@ typedef struct mt_image {
     uint32_t width, height;
     uint32_t channel_count; /* 1 grey, 3 RGB, 4 RGB and alpha (not premultiplied) */
     mt_color_space space;
-    float *pixels;          /* width * height * channel_count */
+    float *pixels; /* width * height * channel_count */
 } mt_image;
 
 /* A picture of zeros. MT_ERROR_ARGUMENT for a size of 0 or channels other than 1, 3, 4. */

@@ -52,19 +52,19 @@ typedef struct mt_manifold_report {
     mt_index edge_count;
     mt_index defect_counts[MT_DEFECT_KIND_COUNT];
     mt_index component_count;
-    mt_index boundary_loop_count;   /* MT_NONE: undefined */
+    mt_index boundary_loop_count; /* MT_NONE: undefined */
     int64_t euler_characteristic;
     mt_manifold_class manifold_class;
     mt_answer oriented;
     mt_answer orientable;
     bool has_genus;
-    int64_t genus;                  /* may be wrong only if has_genus is false */
-    double area;                    /* of the shared triangulation, finite vertices only */
+    int64_t genus; /* may be wrong only if has_genus is false */
+    double area;   /* of the shared triangulation, finite vertices only */
     bool has_volume;
-    double volume;                  /* signed */
+    double volume; /* signed */
     size_t defect_list_count;
-    mt_defect *defects;             /* by kind, in the order of their elements */
-    void *storage;                  /* memory of the lists */
+    mt_defect *defects; /* by kind, in the order of their elements */
+    void *storage;      /* memory of the lists */
 } mt_manifold_report;
 
 /* Fills *report. O(size) time. Release it with mt_manifold_report_release. */

@@ -57,10 +57,10 @@ typedef struct mt_mesh {
     mt_index *face_offsets;    /* face_count + 1 first corners; NULL when all faces have face_size sides */
     mt_index *corner_vertices; /* corner_count */
 
-    mt_index wire_count;       /* polylines */
-    mt_index *wire_offsets;    /* wire_count + 1, NULL when there are none */
+    mt_index wire_count;    /* polylines */
+    mt_index *wire_offsets; /* wire_count + 1, NULL when there are none */
     mt_index *wire_vertices;
-    mt_index point_count;      /* point elements, apart from isolated vertices */
+    mt_index point_count; /* point elements, apart from isolated vertices */
     mt_index *point_vertices;
 
     mt_index attribute_count;
@@ -68,7 +68,7 @@ typedef struct mt_mesh {
     mt_index label_set_count;
     mt_labels *label_sets;
 
-    mt_index crease_count;     /* sharpness on edges, as Catmull-Clark reads it: 0 smooth, 10 and more infinite */
+    mt_index crease_count; /* sharpness on edges, as Catmull-Clark reads it: 0 smooth, 10 and more infinite */
     mt_edge_value *creases;
     mt_index sharp_vertex_count; /* sharpness on vertices */
     mt_vertex_value *sharp_vertices;
@@ -77,7 +77,7 @@ typedef struct mt_mesh {
     char **material_libraries;
 
     mt_up_axis up;
-    bool welded;               /* the format has no indices (STL): corners were joined where bit-equal */
+    bool welded; /* the format has no indices (STL): corners were joined where bit-equal */
 } mt_mesh;
 
 /* What to make room for. All zeros is an empty mesh of doubles... position_type 0 is not valid. */

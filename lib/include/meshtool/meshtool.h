@@ -3,17 +3,17 @@
 #define MESHTOOL_MESHTOOL_H
 
 /* The ground floor */
-#include <meshtool/types.h>      /* indices, status codes, number types */
-#include <meshtool/context.h>    /* memory, threads, progress, errors, explain */
 #include <meshtool/checked.h>    /* sizes that say when they overflow */
-#include <meshtool/vector.h>     /* three doubles */
+#include <meshtool/context.h>    /* memory, threads, progress, errors, explain */
 #include <meshtool/elementary.h> /* sin, cos, log ... with the same bits everywhere */
 #include <meshtool/predicates.h> /* exact orientation */
+#include <meshtool/types.h>      /* indices, status codes, number types */
+#include <meshtool/vector.h>     /* three doubles */
 
 /* The hub */
 #include <meshtool/attribute.h>   /* normals, UVs, colours */
-#include <meshtool/mesh.h>        /* vertices, polygons, labels, creases */
 #include <meshtool/generate.h>    /* cube, torus, teapot ... */
+#include <meshtool/mesh.h>        /* vertices, polygons, labels, creases */
 #include <meshtool/triangulate.h> /* n-gons to triangles, in one way */
 
 /* Connectivity */
@@ -29,7 +29,7 @@
 #include <meshtool/preview.h> /* a picture of any mesh */
 
 /* Files */
-#include <meshtool/mesh_format.h>  /* OBJ, OFF, PLY, STL */
 #include <meshtool/image_format.h> /* PNG, PPM */
+#include <meshtool/mesh_format.h>  /* OBJ, OFF, PLY, STL */
 
 #endif

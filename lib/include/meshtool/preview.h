@@ -14,14 +14,14 @@ typedef enum mt_background { MT_BACKGROUND_DEFAULT, MT_BACKGROUND_COLOR, MT_BACK
 
 /* All zeros means the defaults. */
 typedef struct mt_preview_options {
-    uint32_t width, height;          /* pixels; 0: 1024 */
-    mt_background background;        /* default: a light grey that fades downwards */
-    double background_color[3];      /* sRGB, 0 to 1, for MT_BACKGROUND_COLOR */
-    double crease_degrees;           /* faces meeting at more than this show an edge; 0: 40 */
-    unsigned samples;                /* per pixel, a square number; 0: 16 */
-    const unsigned char *face_colors;   /* sRGB triples, one a face, NULL: the mesh's colours or a neutral one */
-    const unsigned char *vertex_marks;  /* not 0: the vertex is drawn as a dot; NULL: none */
-    const mt_index *edge_marks;      /* pairs of vertices drawn as lines over the mesh */
+    uint32_t width, height;            /* pixels; 0: 1024 */
+    mt_background background;          /* default: a light grey that fades downwards */
+    double background_color[3];        /* sRGB, 0 to 1, for MT_BACKGROUND_COLOR */
+    double crease_degrees;             /* faces meeting at more than this show an edge; 0: 40 */
+    unsigned samples;                  /* per pixel, a square number; 0: 16 */
+    const unsigned char *face_colors;  /* sRGB triples, one a face, NULL: the mesh's colours or a neutral one */
+    const unsigned char *vertex_marks; /* not 0: the vertex is drawn as a dot; NULL: none */
+    const mt_index *edge_marks;        /* pairs of vertices drawn as lines over the mesh */
     size_t edge_mark_count;
 } mt_preview_options;
 

@@ -27,9 +27,9 @@ mt_status mt_triangulate_face(mt_context *context, mt_triangulator *triangulator
 /* Every face of the mesh triangulated, in the order of the faces. */
 typedef struct mt_triangulation {
     mt_index triangle_count;
-    mt_index *corners;        /* 3 * triangle_count corner numbers of the mesh; NULL when all faces are
-                                 triangles: then triangle t has the corners 3t, 3t+1, 3t+2 */
-    mt_index *faces;          /* triangle -> face; NULL when all faces are triangles */
+    mt_index *corners; /* 3 * triangle_count corner numbers of the mesh; NULL when all faces are
+                          triangles: then triangle t has the corners 3t, 3t+1, 3t+2 */
+    mt_index *faces;   /* triangle -> face; NULL when all faces are triangles */
 } mt_triangulation;
 mt_status mt_triangulation_init(mt_context *context, const mt_mesh *mesh, mt_triangulation *out);
 void mt_triangulation_release(mt_context *context, mt_triangulation *triangulation);
