@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define FACES_PER_BLOCK 32768
-#define RANGE_SHIFT_MINIMUM 11 /* some 12000 sides a range: they and their counters fit the second-level cache */
+#define RANGE_SHIFT_MINIMUM 11   /* some 12000 sides a range: they and their counters fit the second-level cache */
 #define RANGE_COUNT_MAXIMUM 1024 /* one cache line written to for each */
 #define RANGES_PER_TASK 4
 
