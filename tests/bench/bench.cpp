@@ -1,0 +1,191 @@
+#include "tests/bench/bench.hpp"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+namespace bench
+{
+namespace
+{
+
+std::vector<Row> all_rows;
+
+std::uint64_t status_bytes(const char *key)
+{
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    while (status >> word) {
+        if (word == key) {
+            std::uint64_t kilobytes = 0;
+            status >> kilobytes;
+            return kilobytes * 1024;
+        }
+    }
+    return 0;
+}
+
+struct Series {
+    std::vector<double> seconds;
+    std::uint64_t peak = 0;
+    double total = 0;
+
+    void run(const Theirs &work)
+    {
+        malloc_trim(0);
+        std::ofstream("/proc/self/clear_refs") << "5"; // the high-water mark falls to what is resident now
+        std::uint64_t before = status_bytes("VmRSS:");
+        auto begin = std::chrono::steady_clock::now();
+        work();
+        auto end = std::chrono::steady_clock::now();
+        std::uint64_t high = status_bytes("VmHWM:");
+        seconds.push_back(std::chrono::duration<double>(end - begin).count());
+        total += seconds.back();
+        peak = std::max(peak, high > before ? high - before : 0);
+    }
+
+    Sample sample()
+    {
+        std::sort(seconds.begin(), seconds.end());
+        double median = seconds[seconds.size() / 2];
+        return {median, (seconds.back() - seconds.front()) / median, peak};
+    }
+};
+
+void print_time(double seconds)
+{
+    std::printf(seconds < 0.01 ? "%9.3f" : "%9.1f", seconds * 1e3);
+}
+
+void print_row(const Row &row)
+{
+    std::printf("%-22s %-14s %8llu ", row.name.c_str(), row.mesh.c_str(), static_cast<unsigned long long>(row.faces));
+    print_time(row.ours.seconds);
+    print_time(row.ours_all.seconds);
+    print_time(row.theirs.seconds);
+    std::printf("  %-9s %6.1fx %6.1fx %8.1f %8.1f ", row.peer.c_str(), row.theirs.seconds / row.ours.seconds,
+                row.theirs.seconds / row.ours_all.seconds, static_cast<double>(row.ours.peak) / 1e6,
+                static_cast<double>(row.theirs.peak) / 1e6);
+    if (row.error >= 0) {
+        std::printf("%9.2g", row.error);
+    } else {
+        std::printf("%9s", "-");
+    }
+    std::printf("  %s\n", row.note.c_str());
+    std::fflush(stdout);
+}
+
+void print_head()
+{
+    std::printf("%-22s %-14s %8s %9s%9s%9s  %-9s %7s %7s %8s %8s %9s\n", "case", "mesh", "faces", "ours 1t", "ours all",
+                "peer ms", "peer", "ratio1", "ratio", "MB ours", "MB peer", "error");
+}
+
+void write_csv(const char *path)
+{
+    std::ofstream csv(path);
+    csv << "case,mesh,faces,peer,ours_1_thread_s,ours_all_threads_s,peer_s,ours_spread,peer_spread,"
+           "ours_peak_bytes,peer_peak_bytes,error,note\n";
+    for (const Row &row : all_rows) {
+        csv << row.name << ',' << row.mesh << ',' << row.faces << ',' << row.peer << ',' << row.ours.seconds << ','
+            << row.ours_all.seconds << ',' << row.theirs.seconds << ',' << row.ours.spread << ',' << row.theirs.spread
+            << ',' << row.ours.peak << ',' << row.theirs.peak << ',';
+        if (row.error >= 0) {
+            csv << row.error;
+        }
+        csv << ',' << row.note << '\n';
+    }
+}
+
+const Case cases[] = {
+    {"reading", run_reading},         {"connectivity", run_connectivity}, {"check", run_check},
+    {"subdivision", run_subdivision}, {"preview", run_preview},
+};
+
+int run_cases(int count, char **names)
+{
+    print_head();
+    for (const Case &one : cases) {
+        bool wanted = count == 0;
+        for (int i = 0; i < count; i++) {
+            wanted = wanted || std::strcmp(names[i], one.name) == 0;
+        }
+        if (wanted) {
+            one.run();
+        }
+    }
+    return all_rows.empty() ? 2 : 0;
+}
+
+} // namespace
+
+const std::vector<Row> &rows()
+{
+    return all_rows;
+}
+
+void require(mt_context *context, mt_status status)
+{
+    if (status != MT_OK) {
+        std::fprintf(stderr, "bench: %s\n", mt_context_error(context)->message);
+        std::exit(1);
+    }
+}
+
+mt_context *shared_context()
+{
+    static mt_context *context = [] {
+        mt_context_options options{};
+        options.thread_count = 1;
+        return mt_context_create(&options);
+    }();
+    return context;
+}
+
+void compare(Row row, const Ours &ours, const Theirs &theirs)
+{
+    mt_context_options one_thread{};
+    one_thread.thread_count = 1;
+    mt_context *single = mt_context_create(&one_thread);
+    mt_context *all = mt_context_create(nullptr);
+    Series ours_single, ours_all, peer;
+    ours(single); // once unmeasured: the first run pays for page tables and caches
+    for (int i = 0; i < 9 && (i < 3 || ours_single.total + ours_all.total + peer.total < 3.0); i++) {
+        ours_single.run([&] { ours(single); });
+        ours_all.run([&] { ours(all); });
+        peer.run(theirs);
+    }
+    mt_context_destroy(single);
+    mt_context_destroy(all);
+    row.ours = ours_single.sample();
+    row.ours_all = ours_all.sample();
+    row.theirs = peer.sample();
+    print_row(row);
+    all_rows.push_back(row);
+}
+
+} // namespace bench
+
+int main(int argc, char **argv)
+{
+    const char *csv = nullptr;
+    int first = 1;
+    if (argc > 2 && std::strcmp(argv[1], "--csv") == 0) {
+        csv = argv[2];
+        first = 3;
+    }
+    int result = bench::run_cases(argc - first, argv + first);
+    if (result == 2) {
+        std::fprintf(stderr, "bench: no such case; there are reading, connectivity, check, subdivision, preview\n");
+    }
+    if (csv) {
+        bench::write_csv(csv);
+    }
+    return result;
+}

@@ -1,0 +1,60 @@
+// The frame of the benchmarks: runs ours and a peer in turn, and keeps medians, peak memory and the error beside them.
+#pragma once
+
+#include <meshtool/meshtool.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace bench
+{
+
+struct Sample {
+    double seconds = 0;     // median
+    double spread = 0;      // (maximum - minimum) / median
+    std::uint64_t peak = 0; // most resident bytes above those before the run, the largest of the runs
+};
+
+struct Row {
+    std::string name, mesh, peer;
+    std::uint64_t faces = 0;
+    Sample ours, ours_all, theirs; // one thread, all threads, the peer
+    double error = -1;             // largest difference to the peer; negative: none can be named
+    std::string note;
+};
+
+// A run takes the context to work in and returns nothing; what it made it destroys.
+using Ours = std::function<void(mt_context *)>;
+using Theirs = std::function<void()>;
+
+// Runs ours on one thread, ours on all and the peer's in turn, until each took half a second or ran nine times.
+void compare(Row row, const Ours &ours, const Theirs &theirs);
+
+// Every case by name, and what it measures.
+struct Case {
+    const char *name;
+    void (*run)();
+};
+void run_reading();
+void run_connectivity();
+void run_check();
+void run_subdivision();
+void run_preview();
+
+const std::vector<Row> &rows();
+
+// A context with one thread for preparing inputs.
+mt_context *shared_context();
+
+// A closed, wavy torus of about `faces` triangles (or quads), f64, vertices in file order or shuffled.
+mt_mesh *wavy_torus(std::uint64_t faces, bool quads, bool shuffled);
+
+// Fails loudly: a benchmark of a failed operation measures nothing.
+void require(mt_context *context, mt_status status);
+
+// Sizes that show growth: 10^4, 10^5, 10^6 faces.
+inline const std::uint64_t sizes[] = {10000, 100000, 1000000};
+
+} // namespace bench
