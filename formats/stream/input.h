@@ -7,10 +7,12 @@
 
 #define MT_INPUT_PEEK 4096 /* bytes that mt_input_peek can show */
 
-/* Opens path ("-": standard input). MT_ERROR_IO says why not: missing, a directory, no permission. */
+/* Opens path ("-": standard input). MT_ERROR_IO says why not: missing, no permission. A directory is
+ * MT_ERROR_UNSUPPORTED. */
 mt_status mt_input_open(mt_context *context, const char *path, mt_input **out);
 /* Reads from memory that outlives the input. */
 mt_status mt_input_open_memory(mt_context *context, const char *name, const void *bytes, size_t size, mt_input **out);
+/* NULL is allowed. */
 void mt_input_close(mt_context *context, mt_input *input);
 
 /* As the user named it, for mt_place.file. */
@@ -25,16 +27,23 @@ uint64_t mt_input_offset(const mt_input *input);
 /* The first bytes, without consuming them (only before the first read). */
 mt_status mt_input_peek(mt_context *context, mt_input *input, const uint8_t **bytes, size_t *size);
 
-/* Reads up to `size` bytes; *got is less only at the end. */
+/* Reads up to `size` bytes; *got is less only at the end. Small reads are buffered. */
 mt_status mt_input_read(mt_context *context, mt_input *input, void *buffer, size_t size, size_t *got);
 
 /* Reads exactly `size` bytes, or MT_ERROR_SYNTAX "ends after N bytes, expected `what`" with the place. */
 mt_status mt_input_read_exactly(mt_context *context, mt_input *input, void *buffer, size_t size, const char *what);
 
-/* Whether mt_input_read_at works: files and memory, not pipes. It may be called inside a parallel body
- * (it records no error): returns the bytes read, fewer at the end of the file, SIZE_MAX on failure. */
+/* Whether mt_input_read_at works: files and memory, not pipes before mt_input_collect. It may be called inside a
+ * parallel body (it records no error): returns the bytes read, fewer only at the end, SIZE_MAX on failure. */
 bool mt_input_can_read_at(const mt_input *input);
 size_t mt_input_read_at(const mt_input *input, uint64_t offset, void *buffer, size_t size);
+
+/* Records why mt_input_read_at failed at `offset`: the file became shorter, or the device failed. */
+mt_status mt_input_fail_read_at(mt_context *context, const mt_input *input, uint64_t offset);
+
+/* Takes the whole of a stream into memory, so that its size is known and mt_input_read_at works. Nothing to do for
+ * files and memory. Bytes consumed before cannot be read at. Memory: the bytes of the stream. */
+mt_status mt_input_collect(mt_context *context, mt_input *input);
 
 /* A place in this input. */
 mt_place mt_input_place_offset(const mt_input *input, uint64_t offset);

@@ -24,8 +24,11 @@ typedef enum mt_ability {
     MT_HOLDS_GENERIC = 1u << 11, /* attributes known by name on vertices and faces */
     MT_HOLDS_GROUPS = 1u << 12,  /* groups, objects, materials, smoothing */
     MT_HOLDS_SOLIDS = 1u << 13,
-    MT_HOLDS_CREASES = 1u << 14, /* sharpness on edges and vertices */
-    MT_HOLDS_F64 = 1u << 15      /* positions in double precision */
+    MT_HOLDS_CREASES = 1u << 14,  /* sharpness on edges and vertices */
+    MT_HOLDS_F64 = 1u << 15,      /* positions in double precision */
+    MT_HOLDS_ALPHA = 1u << 16,    /* the fourth component of colours */
+    MT_HOLDS_UV_DEPTH = 1u << 17, /* the third component of UVs */
+    MT_HOLDS_LIBRARIES = 1u << 18 /* names of material libraries */
 } mt_ability;
 
 typedef enum mt_encoding {
@@ -63,6 +66,8 @@ typedef struct mt_mesh_format {
     /* How sure the first bytes make it: 0 not this format, 100 certain. `size` bytes of a file of
      * `total` bytes (UINT64_MAX when unknown) are given. */
     int (*sniff)(const uint8_t *bytes, size_t size, uint64_t total);
+    /* Called with options that are never NULL. A reader may leave the precision asked for to the caller, and
+     * need not count numbers that are not finite; a writer need not report loss. */
     mt_status (*read)(mt_context *context, mt_input *input, const mt_mesh_read_options *options, mt_mesh **out);
     mt_status (*write)(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options,
                        mt_output *output);
@@ -87,12 +92,12 @@ mt_status mt_mesh_read_file(mt_context *context, const char *path, const mt_mesh
 mt_status mt_mesh_read_memory(mt_context *context, const char *name, const void *bytes, size_t size,
                               const mt_mesh_read_options *options, mt_mesh **out, const mt_mesh_format **format);
 
-/* What writing the mesh in a format would lose: short phrases ("corner normals", "2 wires"). */
+/* What writing the mesh in a format would lose: short phrases ("corner normals", "2 wires"). O(size). */
 typedef struct mt_loss {
-    size_t count;
+    size_t count; /* past the room the last item says "and more" */
     char items[16][64];
 } mt_loss;
-void mt_mesh_format_loss(const mt_mesh *mesh, const mt_mesh_format *format, mt_loss *out);
+mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt_mesh_format *format, mt_loss *out);
 
 /* Writes a mesh beside its place and renames it there; a failed run leaves the old file and nothing new.
  * "-" is standard output; devices and pipes are written into. loss may be NULL. */

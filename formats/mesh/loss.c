@@ -1,0 +1,153 @@
+/* What a format cannot hold of a mesh, from its abilities alone. */
+#include <meshtool/mesh_format.h>
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#define ITEM_COUNT (sizeof((mt_loss *)0)->items / sizeof((mt_loss *)0)->items[0])
+
+static void MT_PRINTF(2, 3) add_item(mt_loss *loss, const char *format, ...)
+{
+    if (loss->count == ITEM_COUNT) {
+        snprintf(loss->items[ITEM_COUNT - 1], sizeof loss->items[0], "and more");
+        return;
+    }
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(loss->items[loss->count++], sizeof loss->items[0], format, arguments);
+    va_end(arguments);
+}
+
+static void add_count(mt_loss *loss, uint64_t count, const char *one, const char *several)
+{
+    if (count > 0) {
+        add_item(loss, "%llu %s", (unsigned long long)count, count == 1 ? one : several);
+    }
+}
+
+static uint64_t count_polygons(const mt_mesh *mesh)
+{
+    if (!mesh->face_offsets) {
+        return mesh->face_size > 3 ? mesh->face_count : 0;
+    }
+    uint64_t count = 0;
+    for (mt_index face = 0; face < mesh->face_count; face++) {
+        count += mt_mesh_face_sides(mesh, face) > 3;
+    }
+    return count;
+}
+
+static mt_status count_isolated(mt_context *context, const mt_mesh *mesh, uint64_t *count)
+{
+    uint8_t *used = mt_allocate_zeroed(context, mesh->vertex_count);
+    *count = 0;
+    if (!used) {
+        return MT_ERROR_OUT_OF_MEMORY;
+    }
+    for (mt_index corner = 0; corner < mesh->corner_count; corner++) {
+        used[mesh->corner_vertices[corner]] = 1;
+    }
+    for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex++) {
+        *count += !used[vertex];
+    }
+    mt_free(context, used);
+    return MT_OK;
+}
+
+static uint64_t count_rounded(const mt_mesh *mesh)
+{
+    if (mesh->position_type != MT_F64) {
+        return 0;
+    }
+    const double *p = mesh->positions;
+    uint64_t count = 0;
+    for (uint64_t i = 0; i < 3 * (uint64_t)mesh->vertex_count; i++) {
+        count += (double)(float)p[i] != p[i] && !isnan(p[i]);
+    }
+    return count;
+}
+
+static unsigned ability_of(const mt_attribute *attribute)
+{
+    static const unsigned abilities[][4] = {
+        [MT_SEMANTIC_GENERIC] = {[MT_DOMAIN_VERTEX] = MT_HOLDS_GENERIC, [MT_DOMAIN_FACE] = MT_HOLDS_GENERIC},
+        [MT_SEMANTIC_NORMAL] = {[MT_DOMAIN_VERTEX] = MT_HOLDS_VERTEX_NORMALS,
+                                [MT_DOMAIN_CORNER] = MT_HOLDS_CORNER_NORMALS,
+                                [MT_DOMAIN_FACE] = MT_HOLDS_FACE_NORMALS},
+        [MT_SEMANTIC_UV] = {[MT_DOMAIN_VERTEX] = MT_HOLDS_VERTEX_UVS, [MT_DOMAIN_CORNER] = MT_HOLDS_CORNER_UVS},
+        [MT_SEMANTIC_COLOR] = {[MT_DOMAIN_VERTEX] = MT_HOLDS_VERTEX_COLORS, [MT_DOMAIN_FACE] = MT_HOLDS_FACE_COLORS},
+    };
+    return abilities[attribute->semantic][attribute->domain];
+}
+
+static void add_attribute(mt_loss *loss, const mt_attribute *attribute, unsigned held)
+{
+    static const char *const domains[] = {"mesh", "vertex", "corner", "face"};
+    static const char *const semantics[] = {"attribute", "normals", "UVs", "colors"};
+    const char *domain = domains[attribute->domain];
+    unsigned ability = ability_of(attribute);
+    if (!ability || !(held & ability)) {
+        if (attribute->semantic == MT_SEMANTIC_GENERIC) {
+            add_item(loss, "%s attribute \"%.32s\"", domain, attribute->name);
+        } else {
+            add_item(loss, "%s %s", domain, semantics[attribute->semantic]);
+        }
+        return;
+    }
+    bool color = attribute->semantic == MT_SEMANTIC_COLOR;
+    if (color && attribute->component_count % 2 == 0 && !(held & MT_HOLDS_ALPHA)) {
+        add_item(loss, "alpha of %s colors", domain);
+    }
+    if (attribute->semantic == MT_SEMANTIC_UV && attribute->component_count > 2 && !(held & MT_HOLDS_UV_DEPTH)) {
+        add_item(loss, "third component of %s UVs", domain);
+    }
+}
+
+static void add_labels(mt_loss *loss, const mt_labels *labels, unsigned held)
+{
+    unsigned ability = labels->kind == MT_LABEL_SOLID ? MT_HOLDS_SOLIDS : MT_HOLDS_GROUPS;
+    if (labels->kind == MT_LABEL_PART || !(held & ability)) {
+        add_item(loss, "%s names", mt_label_kind_name(labels->kind));
+    }
+}
+
+mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt_mesh_format *format, mt_loss *out)
+{
+    unsigned held = format->abilities;
+    mt_status status = MT_OK;
+    out->count = 0;
+    if (!(held & MT_HOLDS_POLYGONS)) {
+        add_count(out, count_polygons(mesh), "polygon (triangulated)", "polygons (triangulated)");
+    }
+    if (!(held & MT_HOLDS_INDICES)) {
+        uint64_t isolated;
+        status = count_isolated(context, mesh, &isolated);
+        add_count(out, isolated, "isolated vertex", "isolated vertices");
+    }
+    if (!(held & MT_HOLDS_WIRES)) {
+        add_count(out, mesh->wire_count, "wire", "wires");
+    }
+    if (!(held & MT_HOLDS_POINTS)) {
+        add_count(out, mesh->point_count, "point", "points");
+    }
+    if (!(held & MT_HOLDS_F64)) {
+        add_count(out, count_rounded(mesh), "coordinate rounded to single precision",
+                  "coordinates rounded to single precision");
+    }
+    for (mt_index i = 0; i < mesh->attribute_count; i++) {
+        add_attribute(out, &mesh->attributes[i], held);
+    }
+    for (mt_index i = 0; i < mesh->label_set_count; i++) {
+        add_labels(out, &mesh->label_sets[i], held);
+    }
+    if (!(held & MT_HOLDS_CREASES)) {
+        add_count(out, mesh->crease_count, "edge sharpness", "edge sharpnesses");
+        add_count(out, mesh->sharp_vertex_count, "vertex sharpness", "vertex sharpnesses");
+    }
+    if (!(held & MT_HOLDS_LIBRARIES)) {
+        add_count(out, mesh->material_library_count, "material library", "material libraries");
+    }
+    return status;
+}

@@ -1,0 +1,12 @@
+/* The records of the mesh formats, one at the end of each format's file. mesh_formats.c lists them. */
+#ifndef MESHTOOL_MESH_RECORDS_H
+#define MESHTOOL_MESH_RECORDS_H
+
+#include <meshtool/mesh_format.h>
+
+extern const mt_mesh_format mt_obj_format;
+extern const mt_mesh_format mt_off_format;
+extern const mt_mesh_format mt_ply_format;
+extern const mt_mesh_format mt_stl_format;
+
+#endif
