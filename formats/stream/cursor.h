@@ -92,7 +92,18 @@ static inline uint32_t mt_eight_digits(uint64_t bytes)
 }
 
 /* mantissa / 10^places, correctly rounded; places at most 19. */
-double mt_decimal_value(uint64_t mantissa, unsigned places);
+double mt_decimal_quotient(uint64_t mantissa, unsigned places);
+
+/* The same, for small numbers at once: one division of two exact doubles rounds once. */
+static inline double mt_decimal_value(uint64_t mantissa, unsigned places)
+{
+    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
+                                    1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
+    if (mantissa <= (uint64_t)1 << 53) {
+        return (double)(int64_t)mantissa / powers[places];
+    }
+    return mt_decimal_quotient(mantissa, places);
+}
 
 /* As mt_number_parse, quicker for plain decimals of up to 19 digits. */
 static inline mt_number_result mt_scan_number(const char *begin, const char *end, double *number, const char **stop)
