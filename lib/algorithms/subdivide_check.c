@@ -1,0 +1,270 @@
+/* The refusals: each names the first offender in the order of the mesh and says what can mend it.
+ * Cost: O(corners); what it takes to word a message is spent only on failure. */
+#include "lib/algorithms/subdivide_check.h"
+
+#include <meshtool/manifold.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#define NEEDS "Catmull-Clark needs a manifold mesh"
+
+/* Faces of up to so many sides are compared pairwise, larger ones by marks on their vertices. */
+#define PAIRWISE_SIDES 8
+
+typedef struct face_scan {
+    const mt_mesh *mesh;
+    mt_index *first_repeats; /* per block the first face that names a vertex twice, MT_NONE: none */
+    bool *has_large;         /* per block whether a face was too large to compare pairwise */
+} face_scan;
+
+/* The corner of the first vertex that the face names again, MT_NONE when there is none. */
+static mt_index find_repeat(const mt_mesh *mesh, mt_index begin, mt_index end)
+{
+    for (mt_index i = begin; i + 1 < end; i++) {
+        for (mt_index j = i + 1; j < end; j++) {
+            if (mesh->corner_vertices[i] == mesh->corner_vertices[j]) {
+                return i;
+            }
+        }
+    }
+    return MT_NONE;
+}
+
+static void scan_faces(void *user, uint64_t begin, uint64_t end)
+{
+    const face_scan *scan = user;
+    mt_index first_repeat = MT_NONE;
+    bool has_large = false;
+    for (mt_index face = (mt_index)begin; face < end && first_repeat == MT_NONE; face++) {
+        mt_index first = mt_mesh_face_begin(scan->mesh, face), last = mt_mesh_face_end(scan->mesh, face);
+        if (last - first > PAIRWISE_SIDES) {
+            has_large = true;
+        } else if (find_repeat(scan->mesh, first, last) != MT_NONE) {
+            first_repeat = face;
+        }
+    }
+    scan->first_repeats[begin / MT_SUBDIVIDE_GRAIN] = first_repeat;
+    scan->has_large[begin / MT_SUBDIVIDE_GRAIN] = has_large;
+}
+
+/* The first large face before `limit` that names a vertex twice; `marks` holds a face for each vertex. */
+static mt_index find_large_repeat(const mt_mesh *mesh, mt_index *marks, mt_index limit)
+{
+    memset(marks, 0xff, (size_t)mesh->vertex_count * sizeof *marks); /* MT_NONE */
+    for (mt_index face = 0; face < mesh->face_count && face < limit; face++) {
+        mt_index begin = mt_mesh_face_begin(mesh, face), end = mt_mesh_face_end(mesh, face);
+        for (mt_index corner = begin; end - begin > PAIRWISE_SIDES && corner < end; corner++) {
+            mt_index vertex = mesh->corner_vertices[corner];
+            if (marks[vertex] == face) {
+                return face;
+            }
+            marks[vertex] = face;
+        }
+    }
+    return limit;
+}
+
+static mt_status find_repeating_face(mt_context *context, face_scan *scan, mt_index *face)
+{
+    const mt_mesh *mesh = scan->mesh;
+    uint64_t block_count = (uint64_t)mesh->face_count / MT_SUBDIVIDE_GRAIN + 1;
+    memset(scan->first_repeats, 0xff, (size_t)block_count * sizeof(mt_index)); /* MT_NONE */
+    memset(scan->has_large, 0, (size_t)block_count * sizeof(bool));
+    mt_parallel_for(context, mesh->face_count, MT_SUBDIVIDE_GRAIN, scan_faces, scan);
+    bool has_large = false;
+    *face = MT_NONE;
+    for (uint64_t block = 0; block < block_count && *face == MT_NONE; block++) {
+        *face = scan->first_repeats[block];
+        has_large = has_large || scan->has_large[block];
+    }
+    if (has_large) {
+        mt_index *marks = mt_allocate_array(context, mesh->vertex_count, sizeof *marks);
+        if (!marks) {
+            return mt_context_error(context)->status;
+        }
+        *face = find_large_repeat(mesh, marks, *face);
+        mt_free(context, marks);
+    }
+    return MT_OK;
+}
+
+static mt_status check_faces(mt_context *context, const mt_mesh *mesh)
+{
+    uint64_t block_count = (uint64_t)mesh->face_count / MT_SUBDIVIDE_GRAIN + 1;
+    face_scan scan = {.mesh = mesh};
+    scan.first_repeats = mt_allocate_array(context, block_count, sizeof(mt_index));
+    scan.has_large = mt_allocate_array(context, block_count, sizeof(bool));
+    mt_index face = MT_NONE;
+    mt_status status = scan.first_repeats && scan.has_large ? find_repeating_face(context, &scan, &face)
+                                                            : mt_context_error(context)->status;
+    mt_free(context, scan.first_repeats);
+    mt_free(context, scan.has_large);
+    if (status != MT_OK || face == MT_NONE) {
+        return status;
+    }
+    mt_index corner = find_repeat(mesh, mt_mesh_face_begin(mesh, face), mt_mesh_face_end(mesh, face));
+    return mt_fail(context, MT_ERROR_NOT_MANIFOLD,
+                   "face %u names vertex %u more than once; " NEEDS
+                   ": `meshtool repair --drop-degenerate` can drop such faces",
+                   face, mesh->corner_vertices[corner]);
+}
+
+static mt_index first_corner_of_class(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_edge_class edge_class)
+{
+    mt_index corner = 0;
+    while (mt_edge_class_of(mesh, pairs, corner) != edge_class) {
+        corner++;
+    }
+    return corner;
+}
+
+static mt_index next_corner(const mt_mesh *mesh, mt_index corner)
+{
+    mt_index face = mt_mesh_corner_face(mesh, corner);
+    return corner + 1 < mt_mesh_face_end(mesh, face) ? corner + 1 : mt_mesh_face_begin(mesh, face);
+}
+
+/* "4, 9, 13", cut short where there are many; returns the number of sides on the edge. */
+static mt_index list_faces(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_index first, char *text, size_t room)
+{
+    mt_index count = 0;
+    size_t length = 0;
+    mt_index corner = first;
+    do {
+        if (count < 6) {
+            length += (size_t)snprintf(text + length, room - length, "%s%u", count ? ", " : "",
+                                       mt_mesh_corner_face(mesh, corner));
+        } else if (count == 6) {
+            snprintf(text + length, room - length, ", ...");
+        }
+        count++;
+        corner = pairs->next_side[corner];
+    } while (corner != first);
+    return count;
+}
+
+static mt_status refuse_non_manifold_edge(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
+{
+    char faces[128];
+    mt_index corner = first_corner_of_class(mesh, pairs, MT_EDGE_NON_MANIFOLD);
+    mt_index count = list_faces(mesh, pairs, corner, faces, sizeof faces);
+    return mt_fail(context, MT_ERROR_NOT_MANIFOLD,
+                   "edge %u-%u is shared by %u faces (%s); " NEEDS ": `meshtool repair --split` can separate them",
+                   mesh->corner_vertices[corner], mesh->corner_vertices[next_corner(mesh, corner)], count, faces);
+}
+
+static mt_status refuse_misoriented_edge(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
+{
+    mt_manifold_report report;
+    mt_status status = mt_check_manifold(context, mesh, NULL, &report);
+    if (status != MT_OK) {
+        return status;
+    }
+    bool orientable = report.orientable == MT_YES;
+    mt_manifold_report_release(context, &report);
+    char faces[128];
+    mt_index corner = first_corner_of_class(mesh, pairs, MT_EDGE_MISORIENTED);
+    list_faces(mesh, pairs, corner, faces, sizeof faces);
+    return mt_fail(context, MT_ERROR_NOT_ORIENTED,
+                   "faces %s run along edge %u-%u in the same direction; Catmull-Clark needs faces oriented alike: %s",
+                   faces, mesh->corner_vertices[corner], mesh->corner_vertices[next_corner(mesh, corner)],
+                   orientable ? "`meshtool repair --orient` can turn them"
+                              : "`meshtool repair --orient` cannot help, because the surface is one-sided");
+}
+
+mt_status mt_subdivide_check_edges(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
+{
+    mt_status status = check_faces(context, mesh);
+    if (status != MT_OK) {
+        return status;
+    }
+    if (pairs->non_manifold_count) {
+        return refuse_non_manifold_edge(context, mesh, pairs);
+    }
+    return pairs->misoriented_count ? refuse_misoriented_edge(context, mesh, pairs) : MT_OK;
+}
+
+typedef struct ring_scan {
+    const mt_subdivide_topology *topology;
+    mt_index *block_counts; /* corners that the rings of a block's vertices reach */
+} ring_scan;
+
+MT_SUBDIVIDE_INLINE mt_index ring_length(const mt_subdivide_topology *topology, mt_index vertex, bool quads)
+{
+    mt_index start = topology->vertex_corners[vertex];
+    mt_index count = 0;
+    mt_index corner = start;
+    while (corner != MT_NONE) {
+        count++;
+        mt_index previous = mt_subdivide_previous(topology, corner, quads);
+        corner = topology->twins[previous];
+        if (corner == previous || corner == start) {
+            break;
+        }
+    }
+    return count;
+}
+
+static void count_polygon_rings(void *user, uint64_t begin, uint64_t end)
+{
+    const ring_scan *scan = user;
+    mt_index count = 0;
+    for (uint64_t vertex = begin; vertex < end; vertex++) {
+        count += ring_length(scan->topology, (mt_index)vertex, false);
+    }
+    scan->block_counts[begin / MT_SUBDIVIDE_GRAIN] = count;
+}
+
+static void count_quad_rings(void *user, uint64_t begin, uint64_t end)
+{
+    const ring_scan *scan = user;
+    mt_index count = 0;
+    for (uint64_t vertex = begin; vertex < end; vertex++) {
+        count += ring_length(scan->topology, (mt_index)vertex, true);
+    }
+    scan->block_counts[begin / MT_SUBDIVIDE_GRAIN] = count;
+}
+
+/* Names the first vertex whose ring misses some of its corners, and the first face of the ring and outside. */
+static mt_status refuse_vertex(mt_context *context, const mt_subdivide_topology *topology)
+{
+    bool quads = !topology->face_offsets;
+    mt_index *missing = mt_allocate_array(context, topology->vertex_count, sizeof *missing);
+    if (!missing) {
+        return mt_context_error(context)->status;
+    }
+    for (mt_index vertex = 0; vertex < topology->vertex_count; vertex++) {
+        missing[vertex] = 0u - ring_length(topology, vertex, quads);
+    }
+    for (mt_index corner = 0; corner < topology->corner_count; corner++) {
+        missing[topology->corner_vertices[corner]]++;
+    }
+    mt_index vertex = 0;
+    while (!missing[vertex]) {
+        vertex++;
+    }
+    mt_free(context, missing);
+    return mt_fail(context, MT_ERROR_NOT_MANIFOLD,
+                   "several fans of faces meet in vertex %u alone (one of them has face %u); " NEEDS
+                   ": `meshtool repair --split` can separate them",
+                   vertex, mt_subdivide_face(topology, topology->vertex_corners[vertex], quads));
+}
+
+mt_status mt_subdivide_check_rings(mt_context *context, const mt_subdivide_topology *topology)
+{
+    uint64_t block_count = (uint64_t)topology->vertex_count / MT_SUBDIVIDE_GRAIN + 1;
+    ring_scan scan = {.topology = topology};
+    scan.block_counts = mt_allocate_array_zeroed(context, block_count, sizeof(mt_index));
+    if (!scan.block_counts) {
+        return mt_context_error(context)->status;
+    }
+    mt_parallel_for(context, topology->vertex_count, MT_SUBDIVIDE_GRAIN,
+                    topology->face_offsets ? count_polygon_rings : count_quad_rings, &scan);
+    mt_index reached = 0;
+    for (uint64_t block = 0; block < block_count; block++) {
+        reached += scan.block_counts[block];
+    }
+    mt_free(context, scan.block_counts);
+    return reached == topology->corner_count ? MT_OK : refuse_vertex(context, topology);
+}

@@ -1,0 +1,128 @@
+/* One level of connectivity, by closed forms.
+ *
+ * Source: Dupuy and Vanhoey, "A Halfedge Refinement Rule for Parallel Catmull-Clark Subdivision", 2021. With n and p
+ * the next and previous corner of c in its face, t its twin and u that of p, the children of c have the twins
+ *     4c -> 4 next(t) + 3,   4c+1 -> 4n + 2,   4c+2 -> 4p + 1,   4c+3 -> 4u.
+ * Unlike there, edges are numbered by their first corner. Twins lie in different faces (a face that met itself would
+ * name a vertex twice), and faces are runs of corners, so both halves of an edge begin in the children of the face of
+ * its first corner c, at 4c and 4n+3: numbers of the next level follow from those of this one without a search.
+ *
+ * Cost: O(corners); 16 bytes read and 144 written a corner, of those 16 for the corners' vertices. */
+#include "lib/algorithms/subdivide_topology.h"
+
+#include <string.h>
+
+typedef struct refine_job {
+    const mt_subdivide_topology *parent;
+    mt_index *vertices, *twins, *edge_ranks, *vertex_corners; /* of the child; but the first NULL on the last level */
+} refine_job;
+
+MT_SUBDIVIDE_INLINE void link_corner(const refine_job *job, mt_index corner, mt_index next, mt_index previous,
+                                     mt_index edge_point, bool quads)
+{
+    const mt_subdivide_topology *parent = job->parent;
+    mt_index twin = parent->twins[corner], previous_twin = parent->twins[previous];
+    mt_index *twins = job->twins + 4 * (size_t)corner;
+    twins[0] = twin == corner ? 4 * corner : 4 * mt_subdivide_next(parent, twin, quads) + 3;
+    twins[1] = 4 * next + 2;
+    twins[2] = 4 * previous + 1;
+    twins[3] = previous_twin == previous ? 4 * corner + 3 : 4 * previous_twin;
+    if (job->vertex_corners && twin >= corner) {
+        job->vertex_corners[edge_point] = twin == corner ? 4 * next + 3 : 4 * corner + 1;
+    }
+}
+
+MT_SUBDIVIDE_INLINE void refine_face(const refine_job *job, mt_index face, bool quads, bool last)
+{
+    const mt_subdivide_topology *parent = job->parent;
+    mt_index begin = mt_subdivide_face_begin(parent, face, quads);
+    mt_index end = quads ? begin + 4 : parent->face_offsets[face + 1];
+    mt_index face_point = parent->vertex_count + face;
+    mt_index first_edge_point = parent->vertex_count + parent->face_count;
+    mt_index rank = 2 * parent->edge_ranks[quads ? face : begin] + begin;
+    mt_index previous_point = first_edge_point + mt_subdivide_edge(parent, end - 1, quads);
+    for (mt_index corner = begin; corner < end; corner++) {
+        mt_index previous = corner == begin ? end - 1 : corner - 1;
+        mt_index edge_point = first_edge_point + mt_subdivide_edge(parent, corner, quads);
+        mt_index *vertices = job->vertices + 4 * (size_t)corner;
+        vertices[0] = parent->corner_vertices[corner];
+        vertices[1] = edge_point;
+        vertices[2] = face_point;
+        vertices[3] = previous_point;
+        previous_point = edge_point;
+        if (!last) {
+            link_corner(job, corner, corner + 1 == end ? begin : corner + 1, previous, edge_point, quads);
+            job->edge_ranks[corner] = rank;
+            rank += (mt_index)mt_subdivide_is_first(parent, corner) + (mt_index)(corner + 1 != end) +
+                    (mt_index)(corner == begin) + (mt_index)mt_subdivide_is_first(parent, previous);
+        }
+    }
+    if (!last && job->vertex_corners) {
+        job->vertex_corners[face_point] = 4 * begin + 2;
+    }
+}
+
+#define FACE_LOOP(name, quads, last)                                                                                   \
+    static void name(void *user, uint64_t begin, uint64_t end)                                                         \
+    {                                                                                                                  \
+        for (uint64_t face = begin; face < end; face++) {                                                              \
+            refine_face(user, (mt_index)face, quads, last);                                                            \
+        }                                                                                                              \
+    }
+FACE_LOOP(refine_polygons, false, false)
+FACE_LOOP(refine_polygons_last, false, true)
+FACE_LOOP(refine_quads, true, false)
+FACE_LOOP(refine_quads_last, true, true)
+
+static void keep_old_vertices(void *user, uint64_t begin, uint64_t end)
+{
+    const refine_job *job = user;
+    for (uint64_t vertex = begin; vertex < end; vertex++) {
+        mt_index corner = job->parent->vertex_corners[vertex];
+        job->vertex_corners[vertex] = corner == MT_NONE ? MT_NONE : 4 * corner;
+    }
+}
+
+static bool allocate_links(mt_context *context, const mt_subdivide_topology *parent, refine_job *job,
+                           mt_subdivide_topology *child)
+{
+    child->owned[0] = job->twins = mt_allocate_array(context, child->corner_count, sizeof(mt_index));
+    child->owned[1] = job->edge_ranks = mt_allocate_array(context, child->face_count, sizeof(mt_index));
+    if (parent->vertex_corners) {
+        child->owned[2] = job->vertex_corners = mt_allocate_array(context, child->vertex_count, sizeof(mt_index));
+    }
+    child->twins = job->twins;
+    child->edge_ranks = job->edge_ranks;
+    child->vertex_corners = job->vertex_corners;
+    return job->twins && job->edge_ranks && (job->vertex_corners || !parent->vertex_corners);
+}
+
+mt_status mt_subdivide_topology_refine(mt_context *context, const mt_subdivide_topology *parent,
+                                       mt_index *corner_vertices, bool last, mt_subdivide_topology *child)
+{
+    static const mt_parallel_body loops[2][2] = {{refine_polygons, refine_polygons_last},
+                                                 {refine_quads, refine_quads_last}};
+    refine_job job = {.parent = parent, .vertices = corner_vertices};
+    *child = (mt_subdivide_topology){.vertex_count = (mt_index)mt_subdivide_child_vertex_count(parent),
+                                     .face_count = parent->corner_count,
+                                     .corner_count = 4 * parent->corner_count,
+                                     .edge_count = 2 * parent->edge_count + parent->corner_count,
+                                     .corner_vertices = corner_vertices};
+    if (!last && !allocate_links(context, parent, &job, child)) {
+        mt_subdivide_topology_release(context, child);
+        return mt_context_error(context)->status;
+    }
+    mt_parallel_for(context, parent->face_count, MT_SUBDIVIDE_GRAIN, loops[!parent->face_offsets][last], &job);
+    if (job.vertex_corners) {
+        mt_parallel_for(context, parent->vertex_count, 4 * MT_SUBDIVIDE_GRAIN, keep_old_vertices, &job);
+    }
+    return MT_OK;
+}
+
+void mt_subdivide_topology_release(mt_context *context, mt_subdivide_topology *topology)
+{
+    for (size_t i = 0; i < sizeof topology->owned / sizeof *topology->owned; i++) {
+        mt_free(context, topology->owned[i]);
+    }
+    memset(topology, 0, sizeof *topology);
+}
