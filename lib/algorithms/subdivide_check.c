@@ -2,8 +2,6 @@
  * Cost: O(corners); what it takes to word a message is spent only on failure. */
 #include "lib/algorithms/subdivide_check.h"
 
-#include <meshtool/manifold.h>
-
 #include <stdio.h>
 #include <string.h>
 
@@ -156,21 +154,13 @@ static mt_status refuse_non_manifold_edge(mt_context *context, const mt_mesh *me
 
 static mt_status refuse_misoriented_edge(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
 {
-    mt_manifold_report report;
-    mt_status status = mt_check_manifold(context, mesh, NULL, &report);
-    if (status != MT_OK) {
-        return status;
-    }
-    bool orientable = report.orientable == MT_YES;
-    mt_manifold_report_release(context, &report);
     char faces[128];
     mt_index corner = first_corner_of_class(mesh, pairs, MT_EDGE_MISORIENTED);
     list_faces(mesh, pairs, corner, faces, sizeof faces);
     return mt_fail(context, MT_ERROR_NOT_ORIENTED,
-                   "faces %s run along edge %u-%u in the same direction; Catmull-Clark needs faces oriented alike: %s",
-                   faces, mesh->corner_vertices[corner], mesh->corner_vertices[next_corner(mesh, corner)],
-                   orientable ? "`meshtool repair --orient` can turn them"
-                              : "`meshtool repair --orient` cannot help, because the surface is one-sided");
+                   "faces %s run along edge %u-%u in the same direction; Catmull-Clark needs faces oriented alike: "
+                   "`meshtool repair --orient` can turn them where the surface has two sides",
+                   faces, mesh->corner_vertices[corner], mesh->corner_vertices[next_corner(mesh, corner)]);
 }
 
 mt_status mt_subdivide_check_edges(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)

@@ -196,8 +196,7 @@ MT_SUBDIVIDE_INLINE void vertex_point(const values_job *job, mt_index vertex, bo
     LOOP(pass, pass##_f32_quads_##width, false, true, width)                                                           \
     LOOP(pass, pass##_f64_polygons_##width, true, false, width)                                                        \
     LOOP(pass, pass##_f64_quads_##width, true, true, width)
-#define LOOPS(pass)                                                                                                    \
-    LOOPS_OF_WIDTH(pass, 1) LOOPS_OF_WIDTH(pass, 2) LOOPS_OF_WIDTH(pass, 3) LOOPS_OF_WIDTH(pass, 4)
+#define LOOPS(pass) LOOPS_OF_WIDTH(pass, 1) LOOPS_OF_WIDTH(pass, 2) LOOPS_OF_WIDTH(pass, 3) LOOPS_OF_WIDTH(pass, 4)
 LOOPS(face_point)
 LOOPS(edge_points)
 LOOPS(vertex_point)
@@ -210,7 +209,10 @@ LOOPS(vertex_point)
     }
 #define TABLE(pass)                                                                                                    \
     {                                                                                                                  \
-        {ROW(pass, f32, polygons), ROW(pass, f32, quads)}, {ROW(pass, f64, polygons), ROW(pass, f64, quads)}           \
+        {ROW(pass, f32, polygons), ROW(pass, f32, quads)},                                                             \
+        {                                                                                                              \
+            ROW(pass, f64, polygons), ROW(pass, f64, quads)                                                            \
+        }                                                                                                              \
     }
 enum { FACE_PASS, EDGE_PASS, VERTEX_PASS, PASS_COUNT };
 static const mt_parallel_body passes[PASS_COUNT][2][2][WIDTH_LIMIT] = {TABLE(face_point), TABLE(edge_points),
@@ -233,7 +235,8 @@ static void copy_origins(void *user, uint64_t begin, uint64_t end)
     for (mt_index face = (mt_index)begin; face < end; face++) {
         mt_index first = mt_subdivide_face_begin(topology, face, quads);
         mt_index last = mt_subdivide_face_begin(topology, face + 1, quads);
-        mt_index edge_point = topology->vertex_count + topology->face_count + topology->edge_ranks[quads ? face : first];
+        mt_index edge_point =
+            topology->vertex_count + topology->face_count + topology->edge_ranks[quads ? face : first];
         target[topology->vertex_count + face] = source[topology->corner_vertices[first]];
         for (mt_index corner = first; corner < last; corner++) {
             if (mt_subdivide_is_first(topology, corner)) {

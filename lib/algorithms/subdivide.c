@@ -1,0 +1,309 @@
+/* Catmull-Clark, level by level: pair the edges once, refuse what the rules cannot take, then let closed forms make
+ * each level from the one before.
+ *
+ * Sources: Catmull and Clark (1978) for the rules (subdivide_values.c); Dupuy and Vanhoey (2021) for the layout
+ * (subdivide_topology.c). Cost: linear in the result; beside it there live at most the level before, with 24 bytes a
+ * face for its connectivity, and the edge pairs while level 1 is made. Known failure: creases do not bend the surface
+ * yet. */
+#include <meshtool/subdivide.h>
+
+#include "lib/algorithms/subdivide_check.h"
+#include "lib/algorithms/subdivide_count.h"
+#include "lib/algorithms/subdivide_crease.h"
+
+#include <string.h>
+
+#define TASK "subdividing"
+
+static void release_state(mt_context *context, mt_subdivide_state *state)
+{
+    for (mt_index i = 0; i < state->topology_count; i++) {
+        mt_subdivide_topology_release(context, &state->topologies[i]);
+    }
+    for (mt_index i = 0; i < state->field_count; i++) {
+        mt_free(context, state->fields[i].owned);
+    }
+    mt_free(context, state->topologies);
+    mt_free(context, state->fields);
+    mt_free(context, state->creases);
+    memset(state, 0, sizeof *state);
+}
+
+static mt_status check_sizes(mt_context *context, const mt_subdivide_state *state, unsigned level_count)
+{
+    mt_status status = MT_OK;
+    for (mt_index i = 0; status == MT_OK && i < state->topology_count; i++) {
+        const mt_subdivide_topology *topology = &state->topologies[i];
+        mt_subdivide_size size = {topology->vertex_count, topology->face_count, topology->corner_count,
+                                  topology->edge_count};
+        size = mt_subdivide_size_at(size, level_count);
+        status = mt_subdivide_check_size(context, &size, level_count);
+    }
+    return status;
+}
+
+/* Everything of level 0. */
+static mt_status begin_state(mt_context *context, const mt_edge_pairs *pairs, unsigned level_count,
+                             mt_subdivide_state *state)
+{
+    const mt_mesh *mesh = state->mesh;
+    state->topologies =
+        mt_allocate_array_zeroed(context, (uint64_t)mesh->attribute_count + 1, sizeof *state->topologies);
+    state->creases = mt_allocate_array(context, mesh->crease_count, sizeof *state->creases);
+    if (!state->topologies || !state->creases) {
+        return mt_context_error(context)->status;
+    }
+    if (mesh->crease_count) {
+        memcpy(state->creases, mesh->creases, mesh->crease_count * sizeof *state->creases);
+        state->crease_count = mesh->crease_count;
+    }
+    mt_status status = mt_subdivide_topology_of_mesh(context, mesh, pairs, &state->topologies[0]);
+    if (status == MT_OK) {
+        state->topology_count = 1;
+        status = mt_subdivide_check_rings(context, &state->topologies[0]);
+    }
+    if (status == MT_OK) {
+        status = mt_subdivide_fields_create(context, state);
+    }
+    return status == MT_OK ? check_sizes(context, state, level_count) : status;
+}
+
+/* A mesh of the last level's size, with what it inherits as a whole: wires, points, names, libraries. */
+static mt_status create_result(mt_context *context, const mt_subdivide_state *state, mt_mesh **out)
+{
+    mt_mesh shell = *state->mesh;
+    shell.vertex_count = shell.face_count = shell.corner_count = shell.attribute_count = 0;
+    shell.crease_count = shell.sharp_vertex_count = 0;
+    shell.positions = NULL;
+    shell.corner_vertices = shell.face_offsets = NULL;
+    shell.creases = NULL;
+    shell.sharp_vertices = NULL;
+    shell.face_size = 4;
+    shell.welded = false;
+    mt_mesh *result;
+    mt_status status = mt_mesh_copy(context, &shell, &result);
+    if (status != MT_OK) {
+        return status;
+    }
+    const mt_subdivide_topology *last = &state->topologies[0];
+    result->vertex_count = (mt_index)mt_subdivide_child_vertex_count(last);
+    result->face_count = last->corner_count;
+    result->corner_count = 4 * last->corner_count;
+    result->positions = mt_allocate_array(context, result->vertex_count, 3 * mt_type_size(result->position_type));
+    result->corner_vertices = mt_allocate_array(context, result->corner_count, sizeof(mt_index));
+    status = result->positions && result->corner_vertices ? mt_subdivide_attributes_add(context, state, result)
+                                                          : mt_context_error(context)->status;
+    if (status != MT_OK) {
+        mt_mesh_destroy(context, result);
+        return status;
+    }
+    *out = result;
+    return MT_OK;
+}
+
+/* Refines one field to the next level: into the result where it can, else into memory of its own. */
+static mt_status refine_field(mt_context *context, mt_subdivide_state *state, mt_subdivide_field *field,
+                              const mt_mesh *result)
+{
+    const mt_subdivide_topology *topology = &state->topologies[field->topology];
+    void *target = result ? mt_subdivide_field_target(state, field, result) : NULL;
+    void *owned = NULL;
+    if (!target) {
+        size_t size = field->component_count * mt_type_size(field->type);
+        target = owned = mt_allocate_array(context, mt_subdivide_child_vertex_count(topology), size);
+    }
+    if (!target) {
+        return mt_context_error(context)->status;
+    }
+    mt_subdivide_values(context, topology, field->rule, field->type, field->component_count, field->values, target);
+    mt_free(context, field->owned);
+    field->values = target;
+    field->owned = owned;
+    return MT_OK;
+}
+
+static mt_status refine_topology(mt_context *context, mt_subdivide_topology *topology, mt_index *last_corners,
+                                 mt_subdivide_topology *child)
+{
+    mt_index *corners = last_corners;
+    if (!corners) {
+        corners = mt_allocate_array(context, 4 * (uint64_t)topology->corner_count, sizeof *corners);
+    }
+    if (!corners) {
+        return mt_context_error(context)->status;
+    }
+    mt_status status = mt_subdivide_topology_refine(context, topology, corners, last_corners != NULL, child);
+    if (status != MT_OK) {
+        mt_free(context, last_corners ? NULL : corners);
+    } else if (!last_corners) {
+        child->owned[3] = corners;
+    }
+    return status;
+}
+
+/* Of a topology the array of the result that its last corners go to. */
+static mt_index *last_corners_of(const mt_subdivide_state *state, mt_index topology, const mt_mesh *result)
+{
+    for (mt_index i = 1; topology && i < state->field_count; i++) {
+        if (state->fields[i].topology == topology) {
+            return result->attributes[state->fields[i].attribute].indices;
+        }
+    }
+    return result->corner_vertices;
+}
+
+/* All of one level; with `result` the last one. */
+static mt_status refine_level(mt_context *context, mt_subdivide_state *state, const mt_mesh *result)
+{
+    mt_status status = MT_OK;
+    for (mt_index i = 0; status == MT_OK && i < state->field_count; i++) {
+        status = refine_field(context, state, &state->fields[i], result);
+    }
+    if (status == MT_OK) {
+        status = mt_subdivide_creases_refine(context, state);
+    }
+    mt_subdivide_topology *children =
+        mt_allocate_array_zeroed(context, state->topology_count, sizeof(mt_subdivide_topology));
+    if (status != MT_OK || !children) {
+        mt_free(context, children);
+        return status != MT_OK ? status : mt_context_error(context)->status;
+    }
+    for (mt_index i = 0; status == MT_OK && i < state->topology_count; i++) {
+        mt_index *last_corners = result ? last_corners_of(state, i, result) : NULL;
+        status = refine_topology(context, &state->topologies[i], last_corners, &children[i]);
+    }
+    for (mt_index i = 0; i < state->topology_count; i++) {
+        mt_subdivide_topology_release(context, &state->topologies[i]);
+    }
+    mt_free(context, state->topologies);
+    state->topologies = children;
+    return status;
+}
+
+static const char *level_name(unsigned level)
+{
+    static const char names[MT_SUBDIVIDE_LEVEL_LIMIT + 1][9] = {
+        "level 0",  "level 1",  "level 2",  "level 3",  "level 4",  "level 5",  "level 6",  "level 7",
+        "level 8",  "level 9",  "level 10", "level 11", "level 12", "level 13", "level 14", "level 15",
+        "level 16", "level 17", "level 18", "level 19", "level 20", "level 21", "level 22", "level 23",
+        "level 24", "level 25", "level 26", "level 27", "level 28", "level 29", "level 30", "level 31"};
+    return names[level];
+}
+
+static mt_status refine_levels(mt_context *context, mt_subdivide_state *state, unsigned level_count, mt_mesh **result)
+{
+    mt_status status = MT_OK;
+    double share = 1;
+    for (unsigned level = 1; level < level_count; level++) {
+        share *= 0.25; /* each level is four times the work of the one before */
+    }
+    for (unsigned level = 1; status == MT_OK && level <= level_count; level++, share *= 4) {
+        int part = mt_part_begin(context, level_name(level), "asked for");
+        status = mt_progress(context, TASK, share * 0.25);
+        if (status == MT_OK && level == level_count) {
+            status = create_result(context, state, result);
+        }
+        if (status == MT_OK) {
+            status = refine_level(context, state, *result);
+        }
+        mt_part_end(context, part);
+    }
+    return status;
+}
+
+/* Labels, attributes and sharpness of the finished mesh. */
+static mt_status finish_result(mt_context *context, mt_subdivide_state *state, unsigned level_count, mt_mesh *result)
+{
+    const mt_mesh *mesh = state->mesh;
+    for (mt_index i = 0; i < result->label_set_count; i++) {
+        mt_labels *labels = &result->label_sets[i];
+        mt_free(context, labels->face_labels);
+        labels->face_labels = mt_allocate_array(context, result->face_count, sizeof(mt_index));
+        if (!labels->face_labels) {
+            return mt_context_error(context)->status;
+        }
+        mt_subdivide_spread(context, mesh, true, level_count, sizeof(mt_index), mesh->label_sets[i].face_labels,
+                            labels->face_labels);
+    }
+    mt_subdivide_attributes_finish(context, state, level_count, result);
+    return mt_subdivide_sharpness_finish(context, state, level_count, result);
+}
+
+static void warn_of_limits(mt_context *context, const mt_mesh *mesh)
+{
+    if (mesh->crease_count || mesh->sharp_vertex_count) {
+        mt_warn(context,
+                "the surface is smooth across the %u creases and %u sharp vertices: their sharpness is passed on, "
+                "less 1 a level, but not followed yet",
+                mesh->crease_count, mesh->sharp_vertex_count);
+    }
+    if (mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX) ||
+        mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_CORNER)) {
+        mt_warn(context, "normals were interpolated from the coarse mesh's: `meshtool normals` computes those of the "
+                         "refined surface");
+    }
+}
+
+static mt_status subdivide_paired(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
+                                  unsigned level_count, mt_mesh **out)
+{
+    mt_status status = mt_subdivide_check_edges(context, mesh, pairs);
+    if (status != MT_OK) {
+        return status;
+    }
+    mt_subdivide_state state = {.mesh = mesh};
+    mt_mesh *result = NULL;
+    status = begin_state(context, pairs, level_count, &state);
+    if (status == MT_OK) {
+        status = refine_levels(context, &state, level_count, &result);
+    }
+    if (status == MT_OK) {
+        status = finish_result(context, &state, level_count, result);
+    }
+    if (status == MT_OK) {
+        status = mt_progress(context, TASK, 1);
+    }
+    release_state(context, &state);
+    if (status != MT_OK) {
+        mt_mesh_destroy(context, result);
+        return status;
+    }
+    warn_of_limits(context, mesh);
+    *out = result;
+    return MT_OK;
+}
+
+/* What is too large whatever the edges are is refused before any memory is taken. */
+static mt_status check_corners(mt_context *context, const mt_mesh *mesh, unsigned level_count)
+{
+    mt_subdivide_size size = {mesh->vertex_count, mesh->face_count, mesh->corner_count, mesh->corner_count / 2};
+    size = mt_subdivide_size_at(size, level_count);
+    return mt_subdivide_check_size(context, &size, level_count);
+}
+
+mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdivide_options *options, mt_mesh **out)
+{
+    unsigned level_count = options && options->level_count ? options->level_count : 1;
+    *out = NULL;
+    if (options && options->no_levels) {
+        return mt_mesh_copy(context, mesh, out);
+    }
+    if (level_count > MT_SUBDIVIDE_LEVEL_LIMIT) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "%u levels are more than the %u that can be asked for", level_count,
+                       MT_SUBDIVIDE_LEVEL_LIMIT);
+    }
+    mt_status status = check_corners(context, mesh, level_count);
+    if (status != MT_OK) {
+        return status;
+    }
+    mt_edge_pairs *pairs;
+    int part =
+        mt_part_begin(context, "edge pairs", "level 1 needs every corner's twin; later levels have closed forms");
+    status = mt_edge_pairs_create(context, mesh, &pairs);
+    mt_part_end(context, part);
+    if (status == MT_OK) {
+        status = subdivide_paired(context, mesh, pairs, level_count, out);
+        mt_edge_pairs_destroy(context, pairs);
+    }
+    return status;
+}
