@@ -73,11 +73,13 @@ static inline uint64_t mt_load_eight(const char *at)
     return bytes;
 }
 
-/* Whether all eight bytes are digits: '0' to '9' are 0x30 to 0x39, and adding 6 must leave the upper half 3. */
-static inline bool mt_are_eight_digits(uint64_t bytes)
+/* How many of the eight bytes, from the first on, are digits. A byte is none when, less '0', it is 10 or more: adding
+ * 0x76 then reaches the top bit. */
+static inline unsigned mt_count_digits(uint64_t bytes)
 {
-    return ((bytes & 0xF0F0F0F0F0F0F0F0u) | (((bytes + 0x0606060606060606u) & 0xF0F0F0F0F0F0F0F0u) >> 4)) ==
-           0x3333333333333333u;
+    uint64_t value = bytes ^ 0x3030303030303030u;
+    uint64_t others = (((value & 0x7F7F7F7F7F7F7F7Fu) + 0x7676767676767676u) | value) & 0x8080808080808080u;
+    return others ? (unsigned)__builtin_ctzll(others) / 8 : 8;
 }
 
 /* The number that eight digits spell: pairs, then fours, then all eight. */
@@ -89,6 +91,14 @@ static inline uint32_t mt_eight_digits(uint64_t bytes)
              ((bytes >> 16) & 0x000000FF000000FFu) * (1 + ((uint64_t)10000 << 32))) >>
             32;
     return (uint32_t)bytes;
+}
+
+/* The number that the first `count` of eight bytes spell; count is at least 1. */
+static inline uint32_t mt_digits_value(uint64_t bytes, unsigned count)
+{
+    unsigned shift = 64 - 8 * count;
+    uint64_t zeros = shift ? 0x3030303030303030u >> (64 - shift) : 0;
+    return mt_eight_digits((bytes << shift) | zeros);
 }
 
 /* mantissa / 10^places, correctly rounded; places at most 19. */
@@ -118,15 +128,17 @@ static inline mt_number_result mt_scan_number(const char *begin, const char *end
     }
     size_t whole = (size_t)(at - digits), places = 0;
     if (*at == '.') {
+        static const uint32_t powers[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
         const char *point = ++at;
-        uint64_t bytes = mt_load_eight(at);
-        if (mt_are_eight_digits(bytes)) {
-            mantissa = 100000000 * mantissa + mt_eight_digits(bytes);
-            at += 8;
-        }
-        while (mt_is_digit(*at)) {
-            mantissa = 10 * mantissa + (uint64_t)(*at++ - '0');
-        }
+        unsigned count;
+        do {
+            uint64_t bytes = mt_load_eight(at);
+            count = mt_count_digits(bytes);
+            if (count > 0) {
+                mantissa = powers[count] * mantissa + mt_digits_value(bytes, count);
+            }
+            at += count;
+        } while (count == 8);
         places = (size_t)(at - point);
     }
     /* 19 digits fit 64 bits. A word that goes on (an exponent, a mistake) and one without digits are for the other. */
@@ -139,19 +151,21 @@ static inline mt_number_result mt_scan_number(const char *begin, const char *end
     return MT_NUMBER_OK;
 }
 
-/* An unsigned decimal number that does not pass 2^63; past it the result is 2^63 whatever follows. *stop is begin
- * when there is no digit. */
+/* An unsigned decimal number; one of 19 digits and more gives UINT64_MAX. *stop is begin when there is no digit. */
 static inline uint64_t mt_scan_unsigned(const char *begin, const char **stop)
 {
-    const char *at = begin;
-    uint64_t value = 0;
-    while (mt_is_digit(*at)) {
-        value = 10 * value + (uint64_t)(*at++ - '0');
-        if (value >= (uint64_t)1 << 59) {
-            while (mt_is_digit(*at)) {
-                at++;
-            }
-            value = (uint64_t)1 << 63;
+    uint64_t bytes = mt_load_eight(begin);
+    unsigned count = mt_count_digits(bytes);
+    if (count == 0) {
+        *stop = begin;
+        return 0;
+    }
+    uint64_t value = mt_digits_value(bytes, count);
+    const char *at = begin + count;
+    if (count == 8) {
+        while (mt_is_digit(*at)) {
+            value = at - begin < 18 ? 10 * value + (uint64_t)(*at - '0') : UINT64_MAX;
+            at++;
         }
     }
     *stop = at;

@@ -53,6 +53,11 @@ mt_status mt_text_parse(mt_context *context, mt_text *text, const char *task, mt
 /* Inside parse: records a failure at a byte of the block (NULL: without a place). The first in the block wins; the
  * parser should return after it. */
 void mt_text_fail(mt_text_block *block, mt_status status, const char *at, const char *format, ...) MT_PRINTF(4, 5);
+/* Records that no number stands at `at`, with what stands there; NULL. */
+const char *mt_text_fail_number(mt_text_block *block, const char *at);
+/* The word at `at`, cut short and without unprintable bytes, for messages; `word` has room for MT_TEXT_WORD bytes. */
+#define MT_TEXT_WORD 40
+void mt_text_word(const char *at, char *word);
 bool mt_text_failed(const mt_text_block *block);
 
 /* The line and column of a byte of the input, for messages. Reads the text up to there again. */

@@ -54,6 +54,7 @@ static void test_rounding_agrees_with_strtod(void **state)
     (void)state;
     test_random random = {1};
     char word[64];
+    check_word("12345678.12345678");
     for (int i = 0; i < 300000; i++) {
         int digits = 1 + (int)test_random_below(&random, 19);
         int places = (int)test_random_below(&random, 22);
@@ -180,13 +181,15 @@ static void test_unsigned(void **state)
 {
     (void)state;
     const char *stop;
-    assert_int_equal(mt_scan_unsigned("123/4", &stop), 123);
+    assert_int_equal(mt_scan_unsigned("123/4567", &stop), 123);
     assert_int_equal(*stop, '/');
     assert_int_equal(mt_scan_unsigned("4294967296 ", &stop), 4294967296u);
+    assert_int_equal(mt_scan_unsigned("12345678 12345678", &stop), 12345678);
+    assert_true(mt_scan_unsigned("999999999999999999 ", &stop) == 999999999999999999u);
     const char *huge = "99999999999999999999999999999999 ";
-    assert_true(mt_scan_unsigned(huge, &stop) == (uint64_t)1 << 63);
+    assert_true(mt_scan_unsigned(huge, &stop) == UINT64_MAX);
     assert_int_equal(*stop, ' ');
-    const char *none = "/1";
+    const char *none = "/1234567";
     assert_int_equal(mt_scan_unsigned(none, &stop), 0);
     assert_ptr_equal(stop, none);
 }
