@@ -18,9 +18,13 @@ typedef struct mt_triangulator {
 void mt_triangulator_release(mt_context *context, mt_triangulator *triangulator);
 
 /* Triangulates one face into sides - 2 triangles, three local corner numbers (0 to sides - 1) each,
- * stored in `triangles` (room for 3 * (sides - 2)). The face's orientation is kept. A planar simple
- * polygon, concave ones too, is covered exactly; a non-planar one is seen along its area vector; a
- * polygon that no triangulation covers (self-crossing, zero area) still gets sides - 2 triangles. */
+ * stored in `triangles` (room for 3 * (sides - 2)). The face's orientation is kept. All decisions are exact,
+ * on the face seen along the coordinate axis nearest to its area vector:
+ * - a quad takes the diagonal that turns no triangle over, and of two such the clearly shorter one, else 0-2;
+ * - a larger polygon is covered exactly when it is simple or touches itself at most (concave ones, keyholes
+ *   around holes); triangles of zero area appear only where repeated points or slits force them;
+ * - one that no triangulation covers (self-crossing, zero area) still gets sides - 2 triangles, and one with a
+ *   coordinate that is not finite is a fan. */
 mt_status mt_triangulate_face(mt_context *context, mt_triangulator *triangulator, const mt_mesh *mesh, mt_index face,
                               mt_index *triangles);
 
