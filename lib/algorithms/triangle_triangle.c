@@ -1,0 +1,180 @@
+/* Contact of triangles by signs of orientations alone, so that the answer is exact.
+ *
+ * Two closed triangles meet when an edge of one meets the other. A segment that does not lie in the triangle's plane
+ * meets it when its ends are not strictly on one side and its line passes the three edges on the same side; one that
+ * lies in it is decided in a projection along an axis in which the triangle keeps an area. */
+#include "lib/algorithms/triangle_triangle.h"
+
+/* Coordinates kept by the projection along x, y and z. */
+static const int kept_axes[3][2] = {{1, 2}, {2, 0}, {0, 1}};
+
+typedef struct flat_point {
+    double at[2];
+} flat_point;
+
+static flat_point flatten(mt_vec3 p, int dropped)
+{
+    const double all[3] = {p.x, p.y, p.z};
+    flat_point flat = {{all[kept_axes[dropped][0]], all[kept_axes[dropped][1]]}};
+    return flat;
+}
+
+static int turn(flat_point a, flat_point b, flat_point c)
+{
+    return mt_orient2d(a.at, b.at, c.at);
+}
+
+/* An axis along which the triangle's projection has an area; its turn there goes to *sense. */
+static int projection_axis(const mt_vec3 triangle[3], int *sense)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        *sense = turn(flatten(triangle[0], axis), flatten(triangle[1], axis), flatten(triangle[2], axis));
+        if (*sense) {
+            return axis;
+        }
+    }
+    return 0;
+}
+
+static bool between(double x, double a, double b)
+{
+    return (a <= x && x <= b) || (b <= x && x <= a);
+}
+
+/* Whether p, known to be on the line of a and b, lies on the closed segment. */
+static bool on_segment(flat_point p, flat_point a, flat_point b)
+{
+    return between(p.at[0], a.at[0], b.at[0]) && between(p.at[1], a.at[1], b.at[1]);
+}
+
+static bool flat_segments_meet(flat_point a, flat_point b, flat_point c, flat_point d)
+{
+    int abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
+    if (abc * abd < 0 && cda * cdb < 0) {
+        return true;
+    }
+    return (abc == 0 && on_segment(c, a, b)) || (abd == 0 && on_segment(d, a, b)) ||
+           (cda == 0 && on_segment(a, c, d)) || (cdb == 0 && on_segment(b, c, d));
+}
+
+static bool flat_triangle_holds(const flat_point corner[3], int sense, flat_point p)
+{
+    return turn(corner[0], corner[1], p) * sense >= 0 && turn(corner[1], corner[2], p) * sense >= 0 &&
+           turn(corner[2], corner[0], p) * sense >= 0;
+}
+
+static bool coplanar_segment_meets(mt_vec3 s, mt_vec3 t, const mt_vec3 triangle[3])
+{
+    int sense;
+    int axis = projection_axis(triangle, &sense);
+    flat_point corner[3], a = flatten(s, axis), b = flatten(t, axis);
+    for (int i = 0; i < 3; i++) {
+        corner[i] = flatten(triangle[i], axis);
+    }
+    return flat_triangle_holds(corner, sense, a) || flat_triangle_holds(corner, sense, b) ||
+           flat_segments_meet(a, b, corner[0], corner[1]) || flat_segments_meet(a, b, corner[1], corner[2]) ||
+           flat_segments_meet(a, b, corner[2], corner[0]);
+}
+
+/* The segment's ends on the sides s_side and t_side of the triangle's plane. */
+static bool segment_meets(mt_vec3 s, mt_vec3 t, const mt_vec3 triangle[3], int s_side, int t_side)
+{
+    if (s_side * t_side > 0) {
+        return false;
+    }
+    if (s_side == 0 && t_side == 0) {
+        return coplanar_segment_meets(s, t, triangle);
+    }
+    int first = mt_orient3d(s, t, triangle[0], triangle[1]);
+    int second = mt_orient3d(s, t, triangle[1], triangle[2]);
+    if (first * second < 0) {
+        return false;
+    }
+    int third = mt_orient3d(s, t, triangle[2], triangle[0]);
+    return first * third >= 0 && second * third >= 0;
+}
+
+static int plane_side(const mt_vec3 triangle[3], mt_vec3 p)
+{
+    return mt_orient3d(triangle[0], triangle[1], triangle[2], p);
+}
+
+bool mt_segment_meets_triangle(mt_vec3 s, mt_vec3 t, const mt_vec3 triangle[3])
+{
+    return segment_meets(s, t, triangle, plane_side(triangle, s), plane_side(triangle, t));
+}
+
+/* Whether b's three points lie strictly on one side of a's plane; otherwise their sides. */
+static bool is_apart(const indexed_triangle *a, const indexed_triangle *b, int sides[3])
+{
+    for (int i = 0; i < 3; i++) {
+        sides[i] = plane_side(a->points, b->points[i]);
+    }
+    return (sides[0] > 0 && sides[1] > 0 && sides[2] > 0) || (sides[0] < 0 && sides[1] < 0 && sides[2] < 0);
+}
+
+static bool an_edge_meets(const indexed_triangle *edges_of, const indexed_triangle *other, const int sides[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int next = i == 2 ? 0 : i + 1;
+        if (segment_meets(edges_of->points[i], edges_of->points[next], other->points, sides[i], sides[next])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool separate_triangles_meet(const indexed_triangle *a, const indexed_triangle *b)
+{
+    int b_sides[3], a_sides[3];
+    if (is_apart(a, b, b_sides) || is_apart(b, a, a_sides)) {
+        return false;
+    }
+    return an_edge_meets(b, a, b_sides) || an_edge_meets(a, b, a_sides);
+}
+
+/* a's corner i and b's corner j are the same vertex. */
+static bool joined_triangles_meet(const indexed_triangle *a, int i, const indexed_triangle *b, int j)
+{
+    static const int after[3] = {1, 2, 0}, before[3] = {2, 0, 1};
+    return mt_segment_meets_triangle(a->points[after[i]], a->points[before[i]], b->points) ||
+           mt_segment_meets_triangle(b->points[after[j]], b->points[before[j]], a->points);
+}
+
+/* a's edge opposite its corner i is b's edge opposite its corner j. */
+static bool adjacent_triangles_overlap(const indexed_triangle *a, int i, const indexed_triangle *b, int j)
+{
+    static const int after[3] = {1, 2, 0}, before[3] = {2, 0, 1};
+    mt_vec3 apex = b->points[j];
+    if (plane_side(a->points, apex) != 0) {
+        return false;
+    }
+    int sense;
+    int axis = projection_axis(a->points, &sense);
+    flat_point p = flatten(a->points[after[i]], axis), q = flatten(a->points[before[i]], axis);
+    return turn(p, q, flatten(apex, axis)) * sense > 0;
+}
+
+bool mt_triangles_intersect(const indexed_triangle *a, const indexed_triangle *b)
+{
+    int shared = 0, a_corner = 0, b_corner = 0, a_sum = 0, b_sum = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            if (a->vertices[i] == b->vertices[j]) {
+                shared++;
+                a_corner = i, b_corner = j;
+                a_sum += i, b_sum += j;
+            }
+        }
+    }
+    switch (shared) {
+    case 0:
+        return separate_triangles_meet(a, b);
+    case 1:
+        return joined_triangles_meet(a, a_corner, b, b_corner);
+    case 2:
+        return adjacent_triangles_overlap(a, 3 - a_sum, b, 3 - b_sum);
+    default:
+        return false;
+    }
+}
