@@ -99,11 +99,6 @@ static int plane_side(const mt_vec3 triangle[3], mt_vec3 p)
     return mt_orient3d(triangle[0], triangle[1], triangle[2], p);
 }
 
-bool mt_segment_meets_triangle(mt_vec3 s, mt_vec3 t, const mt_vec3 triangle[3])
-{
-    return segment_meets(s, t, triangle, plane_side(triangle, s), plane_side(triangle, t));
-}
-
 /* Whether b's three points lie strictly on one side of a's plane; otherwise their sides. */
 static bool is_apart(const indexed_triangle *a, const indexed_triangle *b, int sides[3])
 {
@@ -133,12 +128,21 @@ static bool separate_triangles_meet(const indexed_triangle *a, const indexed_tri
     return an_edge_meets(b, a, b_sides) || an_edge_meets(a, b, a_sides);
 }
 
-/* a's corner i and b's corner j are the same vertex. */
+/* a's corner i and b's corner j are the same vertex. Where the opposite edge of one lies strictly on one side of the
+ * other's plane, so does all of it but that vertex, and nothing meets. */
 static bool joined_triangles_meet(const indexed_triangle *a, int i, const indexed_triangle *b, int j)
 {
     static const int after[3] = {1, 2, 0}, before[3] = {2, 0, 1};
-    return mt_segment_meets_triangle(a->points[after[i]], a->points[before[i]], b->points) ||
-           mt_segment_meets_triangle(b->points[after[j]], b->points[before[j]], a->points);
+    mt_vec3 p = a->points[after[i]], q = a->points[before[i]], r = b->points[after[j]], s = b->points[before[j]];
+    int p_side = plane_side(b->points, p), q_side = plane_side(b->points, q);
+    if (p_side * q_side > 0) {
+        return false;
+    }
+    int r_side = plane_side(a->points, r), s_side = plane_side(a->points, s);
+    if (r_side * s_side > 0) {
+        return false;
+    }
+    return segment_meets(p, q, b->points, p_side, q_side) || segment_meets(r, s, a->points, r_side, s_side);
 }
 
 /* a's edge opposite its corner i is b's edge opposite its corner j. */

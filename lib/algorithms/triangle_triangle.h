@@ -12,7 +12,4 @@ typedef struct indexed_triangle {
 /* Whether two triangles of non-zero area intersect, by the rule of self_intersection.h. */
 bool mt_triangles_intersect(const indexed_triangle *a, const indexed_triangle *b);
 
-/* Whether a closed segment and a closed triangle of non-zero area have a point in common. */
-bool mt_segment_meets_triangle(mt_vec3 s, mt_vec3 t, const mt_vec3 triangle[3]);
-
 #endif

@@ -104,8 +104,12 @@ void write_csv(const char *path)
 }
 
 const Case cases[] = {
-    {"reading", run_reading},         {"connectivity", run_connectivity}, {"check", run_check},
-    {"subdivision", run_subdivision}, {"preview", run_preview},
+    {"reading", run_reading},
+    {"connectivity", run_connectivity},
+    {"check", run_check},
+    {"self-intersection", run_self_intersection},
+    {"subdivision", run_subdivision},
+    {"preview", run_preview},
 };
 
 int run_cases(int count, char **names)
@@ -182,7 +186,9 @@ int main(int argc, char **argv)
     }
     int result = bench::run_cases(argc - first, argv + first);
     if (result == 2) {
-        std::fprintf(stderr, "bench: no such case; there are reading, connectivity, check, subdivision, preview\n");
+        std::fprintf(stderr,
+                     "bench: no such case; there are reading, connectivity, check, self-intersection, subdivision, "
+                     "preview\n");
     }
     if (csv) {
         bench::write_csv(csv);

@@ -40,6 +40,7 @@ struct Case {
 void run_reading();
 void run_connectivity();
 void run_check();
+void run_self_intersection();
 void run_subdivision();
 void run_preview();
 

@@ -20,9 +20,13 @@
 #include <meshtool/edge_pairs.h> /* which sides share an edge */
 #include <meshtool/halfedge.h>   /* half-edges in pairs */
 
+/* Space */
+#include <meshtool/aabb_tree.h> /* a tree of boxes over triangles */
+
 /* Algorithms */
-#include <meshtool/manifold.h>  /* the check that finds everything */
-#include <meshtool/subdivide.h> /* Catmull-Clark */
+#include <meshtool/manifold.h>          /* the check that finds everything */
+#include <meshtool/self_intersection.h> /* faces that meet where they should not, decided exactly */
+#include <meshtool/subdivide.h>         /* Catmull-Clark */
 
 /* Pictures */
 #include <meshtool/image.h>   /* float raster */
