@@ -1,15 +1,17 @@
 #include "lib/base/wide_integer.h"
 
 #include <limits.h>
-#include <math.h>
 #include <string.h>
 
 /* |x| = integer * 2^*exponent with an integer below 2^53. */
 static uint64_t integer_part(double x, int *exponent)
 {
-    double mantissa = frexp(fabs(x), exponent);
-    *exponent -= 53;
-    return (uint64_t)(mantissa * 0x1p53);
+    uint64_t bits = 0;
+    memcpy(&bits, &x, sizeof bits);
+    int biased = (int)(bits >> 52 & 0x7ff);
+    uint64_t fraction = bits & 0x000fffffffffffff;
+    *exponent = biased == 0 ? -1074 : biased - 1075;
+    return biased == 0 ? fraction : fraction | 0x0010000000000000;
 }
 
 int wide_lowest_exponent(double x)
@@ -119,7 +121,7 @@ void wide_multiply(const wide_integer *a, const wide_integer *b, wide_integer *r
         result->count = 0;
         return;
     }
-    memset(result->limb, 0, (size_t)(a->count + b->count) * sizeof result->limb[0]);
+    memset(result->limb, 0, (size_t)b->count * sizeof result->limb[0]);
     for (int i = 0; i < a->count; i++) {
         uint64_t factor = a->limb[i];
         uint64_t carry = 0;
