@@ -1,5 +1,5 @@
-/* Links the sides of one lower vertex. Up to SMALL_BUCKET of them, as nearly always, by comparing each with each;
- * more, by a stable radix sort on the other end, so that a vertex of a million edges costs linear time too. */
+/* Links the sides of one lower vertex. Up to SMALL_BUCKET of them, as nearly always, by comparing each with each; more,
+ * by a stable radix sort on the other end, so that a vertex of a million edges costs linear time too. */
 #include "lib/topology/edge_bucket.h"
 
 /* Comparing all pairs wins below, sorting above; below 64, the bits of the mask. */
@@ -122,8 +122,8 @@ static void link_runs(side_run up, side_run down, mt_index *next_side)
 
 static void count_runs(side_run up, side_run down, edge_tally *tally)
 {
-    size_t ups = (size_t)(up.end - up.at);
-    size_t downs = (size_t)(down.end - down.at);
+    ptrdiff_t ups = up.end - up.at;
+    ptrdiff_t downs = down.end - down.at;
     tally->boundary += ups + downs == 1;
     tally->regular += ups == 1 && downs == 1;
     tally->misoriented += ups + downs == 2 && ups != downs;

@@ -2,12 +2,7 @@
 #ifndef MT_TOPOLOGY_EDGE_BUCKET_H
 #define MT_TOPOLOGY_EDGE_BUCKET_H
 
-#include <meshtool/edge_pairs.h>
-
-/* Counts of edges by class. */
-typedef struct edge_tally {
-    uint64_t boundary, regular, misoriented, non_manifold;
-} edge_tally;
+#include "lib/topology/edge_tally.h"
 
 /* One side: the vertex at its other end, and its corner. */
 typedef struct edge_side {

@@ -1,295 +1,148 @@
-/* Edge pairing by two counting sorts, no hashing.
+/* Edge pairing: by one pass of chains over the faces where those are near each other in memory, else by ranges. Both
+ * give the same result: which sides lie on an edge, in ascending order, does not depend on how they were found.
  *
- * A side belongs to the bucket of its lower vertex. Vertices are cut into ranges; the first sort deals the sides to
- * ranges, block of faces by block, so that each range's sides stand in corner order whoever dealt them. The second,
- * within a range and thus in cache, deals them to vertices and, among one vertex's sides, those that leave it before
- * those that reach it. The few sides of a bucket are then compared with each other (edge_bucket.c).
- *
- * Cost: O(vertices + corners) time; 12 bytes a corner while it runs. Reading and dealing is sequential, whatever the
- * order of the faces; only the result is scattered. Known weakness: a vertex of very high valence makes one long range
- * that one thread must take alone. */
-#include "lib/topology/edge_bucket.h"
+ * Cost: O(vertices + corners) time, 12 bytes a corner while it runs. */
+#include "lib/topology/edge_chain.h"
+#include "lib/topology/edge_ranges.h"
 
 #include <string.h>
 
-#define FACES_PER_BLOCK 32768
-#define RANGE_SHIFT_MINIMUM 11   /* some 12000 sides a range: they and their counters fit the second-level cache */
-#define RANGE_COUNT_MAXIMUM 1024 /* one cache line written to for each */
-#define RANGES_PER_TASK 4
+/* With more threads than this, ranges are faster for every mesh. */
+#define CHAIN_THREADS 2
 
-/* A side dealt to its range: the vertex within the range and whether the side reaches it (1) or leaves it (0). */
-typedef struct ranged_side {
-    mt_index key; /* 2 * (lower - first of range) + reaches */
-    edge_side side;
-} ranged_side;
+/* Meshes of fewer corners fit the cache whatever their order. */
+#define SMALL_CORNER_COUNT 100000
 
-typedef struct pairing {
-    mt_context *context;
-    const mt_mesh *mesh;
-    mt_edge_pairs *pairs;
-    unsigned range_shift;
-    mt_index range_count;
-    mt_index block_count;
-    mt_index *cursors;      /* block_count * range_count: counts, then where the block's next side goes */
-    mt_index *range_begins; /* range_count + 1 */
-    ranged_side *sides;
-    edge_tally *tallies; /* per range */
-    bool *failed;        /* per task, when it got no memory */
-} pairing;
+/* Windows of the list of corners that are looked at to judge its order. */
+#define WINDOW_COUNT 16
+#define WINDOW_SIZE 4096
 
-static mt_index block_end(const pairing *job, mt_index block)
+/* The cache that is pretended while looking: lines of 16 vertices. */
+#define LINE_SHIFT 4
+#define LINE_COUNT 512
+
+/* How many of a window's corners name a vertex whose line was touched shortly before. */
+static mt_index count_hits(const mt_index *corner_vertices)
 {
-    uint64_t end = ((uint64_t)block + 1) * FACES_PER_BLOCK;
-    return end < job->mesh->face_count ? (mt_index)end : job->mesh->face_count;
+    mt_index lines[LINE_COUNT];
+    memset(lines, 0xff, sizeof lines);
+    mt_index hits = 0;
+    for (mt_index c = 0; c < WINDOW_SIZE; c++) {
+        mt_index line = corner_vertices[c] >> LINE_SHIFT;
+        hits += lines[line % LINE_COUNT] == line;
+        lines[line % LINE_COUNT] = line;
+    }
+    return hits;
 }
 
-static void count_side(mt_index *cursors, unsigned shift, mt_index a, mt_index b)
+/* Whether faces that follow each other mostly name the same vertices and their neighbours. */
+static bool is_local(const mt_mesh *mesh)
+{
+    if (mesh->corner_count < SMALL_CORNER_COUNT) {
+        return true;
+    }
+    mt_index stride = mesh->corner_count / WINDOW_COUNT;
+    mt_index hits = 0;
+    for (mt_index window = 0; window < WINDOW_COUNT; window++) {
+        hits += count_hits(mesh->corner_vertices + (size_t)window * stride);
+    }
+    return hits > WINDOW_COUNT * WINDOW_SIZE / 4 * 3;
+}
+
+static inline __attribute__((always_inline)) void add_side(edge_chains *chains, mt_index a, mt_index b, mt_index corner)
 {
     if (a != b) {
-        cursors[(a < b ? a : b) >> shift]++;
+        edge_chain_add(chains, a < b ? a : b, a < b ? b : a, a, corner);
+    } else {
+        chains->next_side[corner] = MT_NONE;
     }
 }
 
-static void count_block(const pairing *job, mt_index block)
+static inline __attribute__((always_inline)) void add_face(edge_chains *chains, const mt_mesh *mesh, mt_index face)
 {
-    const mt_mesh *mesh = job->mesh;
-    mt_index *cursors = job->cursors + (size_t)block * job->range_count;
-    memset(cursors, 0, job->range_count * sizeof *cursors);
-    mt_index end = block_end(job, block);
-    for (mt_index face = block * FACES_PER_BLOCK; face < end; face++) {
-        const mt_index *vertex = mesh->corner_vertices + mt_mesh_face_begin(mesh, face);
-        mt_index sides = mt_mesh_face_sides(mesh, face);
-        mt_index previous = vertex[sides - 1];
-        for (mt_index i = 0; i < sides; i++) {
-            count_side(cursors, job->range_shift, previous, vertex[i]);
-            previous = vertex[i];
-        }
-    }
-}
-
-static void count_blocks(void *user, uint64_t begin, uint64_t end)
-{
-    for (uint64_t block = begin; block < end; block++) {
-        count_block(user, (mt_index)block);
-    }
-}
-
-/* Counts become places: by range, then by block, so that a range's sides stand in corner order. */
-static mt_index place_blocks(pairing *job)
-{
-    mt_index at = 0;
-    for (mt_index range = 0; range < job->range_count; range++) {
-        job->range_begins[range] = at;
-        for (mt_index block = 0; block < job->block_count; block++) {
-            mt_index *cursor = &job->cursors[(size_t)block * job->range_count + range];
-            mt_index count = *cursor;
-            *cursor = at;
-            at += count;
-        }
-    }
-    job->range_begins[job->range_count] = at;
-    return at;
-}
-
-static void deal_side(const pairing *job, mt_index *cursors, mt_index a, mt_index b, mt_index corner)
-{
-    if (a == b) {
-        job->pairs->next_side[corner] = MT_NONE;
+    mt_index begin = mt_mesh_face_begin(mesh, face);
+    mt_index end = mt_mesh_face_end(mesh, face);
+    const mt_index *vertices = mesh->corner_vertices;
+    if (end - begin == 3) {
+        add_side(chains, vertices[begin], vertices[begin + 1], begin);
+        add_side(chains, vertices[begin + 1], vertices[begin + 2], begin + 1);
+        add_side(chains, vertices[begin + 2], vertices[begin], begin + 2);
         return;
     }
-    bool reaches = b < a;
-    mt_index lower = reaches ? b : a;
-    mt_index mask = ((mt_index)1 << job->range_shift) - 1;
-    ranged_side *to = &job->sides[cursors[lower >> job->range_shift]++];
-    to->key = 2 * (lower & mask) + reaches;
-    to->side.other = reaches ? a : b;
-    to->side.corner = corner;
+    for (mt_index c = begin; c < end; c++) {
+        add_side(chains, vertices[c], vertices[c + 1 < end ? c + 1 : begin], c);
+    }
 }
 
-static void deal_blocks(void *user, uint64_t begin, uint64_t end)
+/* False, with the result incomplete, when the chains grew long. A local copy lives in registers, which stores to
+ * the lists cannot touch. */
+static bool add_faces(edge_chains *chains, const mt_mesh *mesh)
 {
-    const pairing *job = user;
-    const mt_mesh *mesh = job->mesh;
-    for (mt_index block = (mt_index)begin; block < end; block++) {
-        mt_index *cursors = job->cursors + (size_t)block * job->range_count;
-        mt_index last = block_end(job, block);
-        for (mt_index face = block * FACES_PER_BLOCK; face < last; face++) {
-            mt_index corner = mt_mesh_face_begin(mesh, face);
-            const mt_index *vertex = mesh->corner_vertices + corner;
-            mt_index sides = mt_mesh_face_sides(mesh, face);
-            for (mt_index i = 0; i + 1 < sides; i++) {
-                deal_side(job, cursors, vertex[i], vertex[i + 1], corner + i);
-            }
-            deal_side(job, cursors, vertex[sides - 1], vertex[0], corner + sides - 1);
+    edge_chains local = *chains;
+    uint64_t step_limit = edge_chain_step_limit(mesh->corner_count);
+    mt_index face = 0;
+    for (; face < mesh->face_count && local.steps <= step_limit; face++) {
+        add_face(&local, mesh, face);
+    }
+    *chains = local;
+    return face == mesh->face_count;
+}
+
+static mt_status pair_by_chains(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs, edge_tally *tally,
+                                bool *done)
+{
+    edge_chains chains = {.next_side = pairs->next_side, .corner_vertices = mesh->corner_vertices};
+    chains.heads = mt_allocate_array(context, mesh->vertex_count, sizeof *chains.heads);
+    chains.entries = mt_allocate_array(context, mesh->corner_count, sizeof *chains.entries);
+    mt_status status = MT_ERROR_OUT_OF_MEMORY;
+    if (chains.heads && chains.entries) {
+        memset(chains.heads, 0xff, mesh->vertex_count * sizeof *chains.heads);
+        *done = add_faces(&chains, mesh);
+        tally->regular = chains.regular;
+        tally->misoriented = chains.misoriented;
+        tally->non_manifold = chains.non_manifold;
+        tally->boundary = chains.entry_count - chains.regular - chains.misoriented - chains.non_manifold;
+        status = MT_OK;
+    }
+    mt_free(context, chains.heads);
+    mt_free(context, chains.entries);
+    return status;
+}
+
+static mt_status find_pairs(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs, edge_tally *tally)
+{
+    bool done = false;
+    if (mt_context_thread_count(context) <= CHAIN_THREADS && is_local(mesh)) {
+        mt_status status = pair_by_chains(context, mesh, pairs, tally, &done);
+        if (status != MT_OK || done) {
+            return status;
         }
     }
+    *tally = (edge_tally){0};
+    return mt_edge_ranges_pair(context, mesh, pairs, tally);
 }
 
-/* Memory that a task uses for one range after the other. */
-typedef struct range_scratch {
-    mt_index *ends; /* per key of the range, where its sides end */
-    edge_side *sides;
-    edge_side *spare;
-} range_scratch;
-
-static mt_index range_vertex_count(const pairing *job, mt_index range)
+static mt_index count_degenerate_sides(const mt_edge_pairs *pairs)
 {
-    uint64_t first = (uint64_t)range << job->range_shift;
-    uint64_t left = job->mesh->vertex_count - first;
-    uint64_t whole = (uint64_t)1 << job->range_shift;
-    return (mt_index)(left < whole ? left : whole);
-}
-
-static void deal_to_vertices(const ranged_side *from, mt_index count, mt_index key_count, range_scratch *scratch)
-{
-    mt_index *ends = scratch->ends;
-    memset(ends, 0, key_count * sizeof *ends);
-    for (mt_index i = 0; i < count; i++) {
-        ends[from[i].key]++;
+    mt_index count = 0;
+    for (mt_index c = 0; c < pairs->corner_count; c++) {
+        count += pairs->next_side[c] == MT_NONE;
     }
-    mt_index at = 0;
-    for (mt_index key = 0; key < key_count; key++) {
-        mt_index here = ends[key];
-        ends[key] = at;
-        at += here;
-    }
-    for (mt_index i = 0; i < count; i++) {
-        scratch->sides[ends[from[i].key]++] = from[i].side;
-    }
-}
-
-static void pair_range(const pairing *job, mt_index range, range_scratch *scratch)
-{
-    mt_index begin = job->range_begins[range];
-    mt_index count = job->range_begins[range + 1] - begin;
-    mt_index vertex_count = range_vertex_count(job, range);
-    deal_to_vertices(job->sides + begin, count, 2 * vertex_count, scratch);
-    edge_tally tally = {0};
-    mt_index at = 0;
-    for (mt_index vertex = 0; vertex < vertex_count; vertex++) {
-        mt_index end = scratch->ends[2 * vertex + 1];
-        mt_index up_count = scratch->ends[2 * vertex] - at;
-        mt_edge_bucket_link(scratch->sides + at, up_count, end - at, scratch->spare, job->pairs->next_side, &tally);
-        at = end;
-    }
-    job->tallies[range] = tally;
-}
-
-static void release_scratch(mt_context *context, range_scratch *scratch)
-{
-    mt_free(context, scratch->ends);
-    mt_free(context, scratch->sides);
-    mt_free(context, scratch->spare);
-}
-
-static bool make_scratch(const pairing *job, uint64_t begin, uint64_t end, range_scratch *scratch)
-{
-    uint64_t most = 0;
-    for (uint64_t range = begin; range < end; range++) {
-        uint64_t count = job->range_begins[range + 1] - job->range_begins[range];
-        most = count > most ? count : most;
-    }
-    uint64_t key_count = 2 * (uint64_t)range_vertex_count(job, (mt_index)begin);
-    scratch->ends = mt_try_allocate(job->context, key_count * sizeof *scratch->ends);
-    scratch->sides = mt_try_allocate(job->context, most * sizeof *scratch->sides);
-    scratch->spare = mt_try_allocate(job->context, most * sizeof *scratch->spare);
-    return scratch->ends && scratch->sides && scratch->spare;
-}
-
-static void pair_ranges(void *user, uint64_t begin, uint64_t end)
-{
-    const pairing *job = user;
-    range_scratch scratch = {0};
-    if (make_scratch(job, begin, end, &scratch)) {
-        for (uint64_t range = begin; range < end; range++) {
-            pair_range(job, (mt_index)range, &scratch);
-        }
-    } else {
-        job->failed[begin / RANGES_PER_TASK] = true;
-    }
-    release_scratch(job->context, &scratch);
-}
-
-static void choose_ranges(pairing *job)
-{
-    uint64_t vertex_count = job->mesh->vertex_count;
-    job->range_shift = RANGE_SHIFT_MINIMUM;
-    while (vertex_count >> job->range_shift >= RANGE_COUNT_MAXIMUM) {
-        job->range_shift++;
-    }
-    job->range_count = (mt_index)(vertex_count >> job->range_shift) + 1;
-    if (((uint64_t)(job->range_count - 1) << job->range_shift) == vertex_count) {
-        job->range_count--;
-    }
-    job->block_count = (mt_index)(((uint64_t)job->mesh->face_count + FACES_PER_BLOCK - 1) / FACES_PER_BLOCK);
-}
-
-static mt_status check_tasks(const pairing *job)
-{
-    for (mt_index task = 0; task * RANGES_PER_TASK < job->range_count; task++) {
-        if (job->failed[task]) {
-            return mt_fail(job->context, MT_ERROR_OUT_OF_MEMORY, "out of memory while pairing the edges of %u faces",
-                           job->mesh->face_count);
-        }
-    }
-    return MT_OK;
-}
-
-static void sum_tallies(const pairing *job, mt_index side_count)
-{
-    edge_tally sum = {0};
-    for (mt_index range = 0; range < job->range_count; range++) {
-        sum.boundary += job->tallies[range].boundary;
-        sum.regular += job->tallies[range].regular;
-        sum.misoriented += job->tallies[range].misoriented;
-        sum.non_manifold += job->tallies[range].non_manifold;
-    }
-    mt_edge_pairs *pairs = job->pairs;
-    pairs->boundary_count = (mt_index)sum.boundary;
-    pairs->regular_count = (mt_index)sum.regular;
-    pairs->misoriented_count = (mt_index)sum.misoriented;
-    pairs->non_manifold_count = (mt_index)sum.non_manifold;
-    pairs->edge_count = (mt_index)(sum.boundary + sum.regular + sum.misoriented + sum.non_manifold);
-    pairs->degenerate_side_count = pairs->corner_count - side_count;
-}
-
-static mt_status run_stages(pairing *job)
-{
-    mt_context *context = job->context;
-    mt_parallel_for(context, job->block_count, 1, count_blocks, job);
-    mt_index side_count = place_blocks(job);
-    job->sides = mt_allocate_array(context, side_count, sizeof *job->sides);
-    if (!job->sides) {
-        return MT_ERROR_OUT_OF_MEMORY;
-    }
-    mt_parallel_for(context, job->block_count, 1, deal_blocks, job);
-    mt_status status = mt_progress(context, "pairing edges", 0.5);
-    if (status != MT_OK) {
-        return status;
-    }
-    mt_parallel_for(context, job->range_count, RANGES_PER_TASK, pair_ranges, job);
-    sum_tallies(job, side_count);
-    return check_tasks(job);
+    return count;
 }
 
 static mt_status pair_edges(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs)
 {
-    pairing job = {.context = context, .mesh = mesh, .pairs = pairs};
-    choose_ranges(&job);
-    uint64_t cursor_count = (uint64_t)job.block_count * job.range_count;
-    job.cursors = mt_allocate_array(context, cursor_count, sizeof *job.cursors);
-    job.range_begins = mt_allocate_array(context, (uint64_t)job.range_count + 1, sizeof *job.range_begins);
-    job.tallies = mt_allocate_array_zeroed(context, job.range_count, sizeof *job.tallies);
-    job.failed = mt_allocate_array_zeroed(context, job.range_count, sizeof *job.failed);
-    mt_status status = MT_ERROR_OUT_OF_MEMORY;
-    if (job.cursors && job.range_begins && job.tallies && job.failed) {
-        status = run_stages(&job);
+    edge_tally tally = {0};
+    mt_status status = find_pairs(context, mesh, pairs, &tally);
+    if (status == MT_OK) {
+        pairs->boundary_count = tally.boundary;
+        pairs->regular_count = tally.regular;
+        pairs->misoriented_count = tally.misoriented;
+        pairs->non_manifold_count = tally.non_manifold;
+        pairs->edge_count = tally.boundary + tally.regular + tally.misoriented + tally.non_manifold;
+        pairs->degenerate_side_count = count_degenerate_sides(pairs);
     }
-    mt_free(context, job.sides);
-    mt_free(context, job.failed);
-    mt_free(context, job.tallies);
-    mt_free(context, job.range_begins);
-    mt_free(context, job.cursors);
     return status;
 }
 

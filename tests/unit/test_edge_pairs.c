@@ -85,10 +85,10 @@ static void expect_definition(mt_context *context, const mt_mesh *mesh)
     mt_edge_pairs_destroy(context, pairs);
 }
 
-static void soups_follow_the_definition(void **state)
+/* One thread pairs by chains, many by ranges. */
+static void expect_soups(unsigned threads)
 {
-    (void)state;
-    mt_context *context = test_context();
+    mt_context *context = test_context_with_threads(threads);
     test_random random = {20240501};
     for (int i = 0; i < 4000; i++) {
         mt_mesh *mesh = i % 2 ? test_soup(context, &random) : test_patch(context, &random);
@@ -96,6 +96,13 @@ static void soups_follow_the_definition(void **state)
         mt_mesh_destroy(context, mesh);
     }
     test_context_end(context);
+}
+
+static void soups_follow_the_definition(void **state)
+{
+    (void)state;
+    expect_soups(1);
+    expect_soups(7);
 }
 
 static void an_empty_mesh_has_no_edges(void **state)
@@ -116,7 +123,7 @@ static void an_empty_mesh_has_no_edges(void **state)
 static void long_buckets_follow_the_definition(void **state)
 {
     (void)state;
-    mt_context *context = test_context();
+    mt_context *context = test_context_with_threads(7);
     test_random random = {11};
     for (mt_index size = 10; size < 200; size += 7) {
         mt_mesh *mesh = test_fan(context, size, size % 2);
@@ -191,14 +198,13 @@ static void threads_change_nothing(void **state)
     }
 }
 
-static void every_failed_allocation_is_clean(void **state)
+static void expect_clean_failures(unsigned threads)
 {
-    (void)state;
     bool done = false;
     for (uint64_t nth = 1; !done; nth++) {
         mt_context *maker = test_context();
         mt_mesh *mesh = test_torus(maker, 30, 20, true);
-        mt_context_options options = {.failing_allocation = nth, .thread_count = 1};
+        mt_context_options options = {.failing_allocation = nth, .thread_count = threads};
         mt_context *context = mt_context_create(&options);
         mt_edge_pairs *pairs = NULL;
         mt_status status = mt_edge_pairs_create(context, mesh, &pairs);
@@ -214,6 +220,13 @@ static void every_failed_allocation_is_clean(void **state)
         test_context_end(maker);
         assert_true(nth < 100);
     }
+}
+
+static void every_failed_allocation_is_clean(void **state)
+{
+    (void)state;
+    expect_clean_failures(1);
+    expect_clean_failures(7);
 }
 
 int main(void)
