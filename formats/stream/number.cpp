@@ -74,6 +74,12 @@ extern "C" mt_number_result mt_number_parse(const char *begin, const char *end, 
     return MT_NUMBER_OK;
 }
 
+extern "C" bool mt_number_parse_float(const char *begin, const char *end, float *number)
+{
+    begin += begin != end && *begin == '+';
+    return std::from_chars(begin, end, *number).ec == std::errc();
+}
+
 extern "C" size_t mt_number_print(double number, char *text)
 {
     return static_cast<size_t>(std::to_chars(text, text + MT_NUMBER_ROOM, number).ptr - text);

@@ -20,6 +20,10 @@ typedef enum mt_number_result {
  * the first byte after it. No leading space is skipped. */
 mt_number_result mt_number_parse(const char *begin, const char *end, double *number, const char **stop);
 
+/* The same as a float, correctly rounded where rounding the double again would not be; false when it is no number or
+ * out of a float's range. */
+bool mt_number_parse_float(const char *begin, const char *end, float *number);
+
 /* The shortest text that reads back as the same number; returns its length, without a final zero byte.
  * `text` has room for MT_NUMBER_ROOM bytes. The float form is shortest for a float. */
 #define MT_NUMBER_ROOM 32

@@ -1,0 +1,187 @@
+/* A record is one line. The lines of every block are counted first, so that each block knows which records it holds;
+ * then all are parsed in parallel. Faces are gathered by block and joined at the end, everything else goes to its place
+ * at once. */
+#include "formats/mesh/ply_body.h"
+#include "formats/mesh/ply_lines.h"
+#include "formats/stream/cursor.h"
+#include "formats/stream/text.h"
+
+typedef struct ascii_reader {
+    mt_context *context;
+    mt_input *input;
+    ply_plan *plan;
+    mt_text *text;
+    uint64_t *element_lines; /* per element its first line, and one more: the end; blank lines do not count */
+    uint64_t *block_lines;   /* per block its first line, and one more: all lines */
+    ply_faces *parts;        /* per block */
+    mt_index *overflows;     /* per block the numbers that are infinite as float */
+} ascii_reader;
+
+static void count_lines(void *user, mt_text_block *block)
+{
+    const ascii_reader *r = user;
+    uint64_t count = 0;
+    for (const char *at = block->begin; at < block->end;) {
+        at = mt_skip_blanks(at);
+        count += !mt_is_line_end(*at);
+        at = mt_skip_line_end(mt_find_line_end(at), block->end);
+    }
+    r->block_lines[block->number] = count;
+}
+
+static void parse_block(void *user, mt_text_block *block)
+{
+    const ascii_reader *r = user;
+    const uint64_t *starts = r->element_lines;
+    uint64_t line = r->block_lines[block->number], end = starts[r->plan->header.element_count];
+    ply_line l = {.context = r->context,
+                  .plan = r->plan,
+                  .block = block,
+                  .faces = &r->parts[block->number],
+                  .overflows = &r->overflows[block->number],
+                  .at = block->begin};
+    while (l.at < block->end && line < end) {
+        l.at = mt_skip_blanks(l.at);
+        if (!mt_is_line_end(*l.at)) {
+            while (line >= starts[l.element + 1]) {
+                l.element++;
+            }
+            l.record = line - starts[l.element];
+            if (!mt_ply_read_line(&l)) {
+                return;
+            }
+            line++;
+        }
+        l.at = mt_skip_line_end(mt_find_line_end(l.at), block->end);
+    }
+}
+
+/* Turns counts into first lines; the sum goes behind the last. */
+static void sum_up(uint64_t *counts, uint64_t count)
+{
+    uint64_t sum = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        uint64_t next = sum + counts[i];
+        counts[i] = sum;
+        sum = next;
+    }
+    counts[count] = sum;
+}
+
+static mt_status prepare(ascii_reader *r)
+{
+    const ply_header *header = &r->plan->header;
+    uint64_t blocks = mt_text_block_count(r->text);
+    r->element_lines = mt_allocate_array(r->context, (uint64_t)header->element_count + 1, sizeof *r->element_lines);
+    r->block_lines = mt_allocate_array_zeroed(r->context, blocks + 1, sizeof *r->block_lines);
+    r->parts = mt_allocate_array_zeroed(r->context, blocks + 1, sizeof *r->parts);
+    r->overflows = mt_allocate_array_zeroed(r->context, blocks, sizeof *r->overflows);
+    if (!r->element_lines || !r->block_lines || !r->parts || !r->overflows) {
+        return mt_context_error(r->context)->status;
+    }
+    for (uint32_t i = 0; i < header->element_count; i++) {
+        const ply_element *element = &header->elements[i];
+        r->element_lines[i] = element->property_count ? element->count : 0; /* a record of nothing is a blank line */
+    }
+    sum_up(r->element_lines, header->element_count);
+    for (uint64_t i = 0; i < blocks; i++) {
+        r->parts[i].has_uvs = r->plan->has_corner_uvs;
+        r->parts[i].uv_type = r->plan->corner_uv_type;
+    }
+    return MT_OK;
+}
+
+static mt_status check_line_count(ascii_reader *r)
+{
+    uint32_t count = r->plan->header.element_count;
+    uint64_t blocks = mt_text_block_count(r->text), lines = r->block_lines[blocks], expected = r->element_lines[count];
+    if (lines > expected) {
+        mt_warn(r->context, "%s: %llu lines after the last element are ignored", mt_input_name(r->input),
+                (unsigned long long)(lines - expected));
+    }
+    if (lines >= expected) {
+        return MT_OK;
+    }
+    uint32_t element = 0;
+    while (lines >= r->element_lines[element + 1]) {
+        element++;
+    }
+    mt_place place = mt_text_place(r->context, r->text, r->plan->header.body_offset + mt_text_size(r->text));
+    return mt_fail_at(
+        r->context, MT_ERROR_SYNTAX, place, "the file ends after %llu of the %llu records of element \"%.80s\"",
+        (unsigned long long)(lines - r->element_lines[element]),
+        (unsigned long long)r->plan->header.elements[element].count, r->plan->header.elements[element].name);
+}
+
+/* Joins the faces of all blocks; offsets within a block become offsets in the mesh. */
+static mt_status join_faces(ascii_reader *r)
+{
+    mt_mesh *mesh = r->plan->mesh;
+    uint64_t blocks = mt_text_block_count(r->text), base = 0;
+    if (mesh->face_count == 0) {
+        return MT_OK;
+    }
+    uint64_t first = r->element_lines[r->plan->faces], last = first + mesh->face_count;
+    for (uint64_t i = 0; i < blocks; i++) {
+        uint64_t begin = r->block_lines[i] < first ? first : r->block_lines[i];
+        uint64_t end = r->block_lines[i + 1] < last ? r->block_lines[i + 1] : last;
+        for (uint64_t line = begin; line < end; line++) {
+            mesh->face_offsets[line - first + 1] += (mt_index)base;
+        }
+        base += r->parts[i].corner_count;
+    }
+    mt_status status = mt_ply_faces_finish(r->context, r->parts, (size_t)blocks, mesh);
+    if (status == MT_OK) {
+        mt_mesh_compact_faces(r->context, mesh);
+    }
+    return status;
+}
+
+static mt_status read_text(ascii_reader *r)
+{
+    uint64_t blocks = mt_text_block_count(r->text);
+    mt_status status = mt_text_parse(r->context, r->text, "reading PLY", count_lines, r);
+    if (status == MT_OK) {
+        sum_up(r->block_lines, blocks);
+        status = mt_text_parse(r->context, r->text, "reading PLY", parse_block, r);
+    }
+    if (status == MT_OK) {
+        status = check_line_count(r);
+    }
+    if (status == MT_OK) {
+        status = join_faces(r);
+    }
+    uint64_t overflows = 0;
+    for (uint64_t i = 0; status == MT_OK && i < blocks; i++) {
+        overflows += r->overflows[i];
+    }
+    if (overflows) {
+        mt_warn(r->context,
+                "%s: %llu numbers are too large for the float that they are declared as and became infinite",
+                mt_input_name(r->input), (unsigned long long)overflows);
+    }
+    return status;
+}
+
+mt_status mt_ply_read_ascii(mt_context *context, mt_input *input, ply_plan *plan)
+{
+    ascii_reader r = {.context = context, .input = input, .plan = plan};
+    mt_text_options options = {.lines_before = plan->header.body_line - 1};
+    mt_status status = mt_text_open(context, input, &options, &r.text);
+    if (status == MT_OK) {
+        status = prepare(&r);
+    }
+    if (status == MT_OK) {
+        status = read_text(&r);
+    }
+    uint64_t blocks = r.parts ? mt_text_block_count(r.text) : 0;
+    for (uint64_t i = 0; i < blocks; i++) {
+        mt_ply_faces_release(context, &r.parts[i]);
+    }
+    mt_free(context, r.element_lines);
+    mt_free(context, r.block_lines);
+    mt_free(context, r.parts);
+    mt_free(context, r.overflows);
+    mt_text_close(context, r.text);
+    return status;
+}

@@ -1,0 +1,27 @@
+/* Welding: points at the same place become one. */
+#ifndef MESHTOOL_WELD_H
+#define MESHTOOL_WELD_H
+
+#include <meshtool/context.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Finds the distinct points among `point_count` (xyz triples of type MT_F32 or MT_F64). Two points are the same
+ * when their coordinates are bit-equal as stored, -0 taken for +0; so a NaN equals a NaN of the same bits, and a
+ * corner that is not a number keeps its neighbours.
+ *
+ * numbers[point_count] receives the number of each point's place; places are numbered in the order of their first
+ * point, whatever the number of threads. The first *distinct_count triples of `distinct` (room for point_count)
+ * receive the places, with the bits of their first point; it may be `positions` itself.
+ *
+ * Linear in time; holds 4 bytes for each point that is the first of its place in its run of 32768, and a table of 10 to
+ * 20 for the same. MT_ERROR_OUT_OF_MEMORY. */
+mt_status mt_weld_exact(mt_context *context, const void *positions, mt_type type, mt_index point_count, void *distinct,
+                        mt_index *numbers, mt_index *distinct_count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
