@@ -12,20 +12,25 @@ extern "C" {
 typedef struct mt_generate_options {
     mt_index resolution;   /* segments, level or sides; what it means stands in the kind's record */
     mt_type position_type; /* 0 or MT_F64: doubles; MT_F32 */
-    double magnitude;      /* size of an extreme; 0: its default */
+    double magnitude;      /* size of an extreme; 0: its default; primitives have no magnitude */
 } mt_generate_options;
 
+/* One kind. Faces of closed, orientable kinds are counter-clockwise seen from outside; +Y is up. */
 typedef struct mt_primitive {
     const char *name;               /* "cube" */
     const char *summary;            /* one line for help */
-    mt_index resolution;            /* the default; 0: takes none */
     const char *resolution_meaning; /* NULL when it takes none */
+    mt_index resolution;            /* the default; 0: takes none */
+    mt_index minimum, maximum;      /* of the resolution */
+    /* Makes it in doubles, with a resolution within its range. */
+    mt_status (*generate)(mt_context *context, mt_index resolution, mt_mesh **out);
 } mt_primitive;
 
 /* The table; *count receives its length. */
 const mt_primitive *mt_primitives(size_t *count);
 
-/* Makes the primitive `name`. MT_ERROR_ARGUMENT for an unknown name or a resolution out of range. */
+/* Makes the primitive `name`. options may be NULL. MT_ERROR_ARGUMENT for an unknown name, a resolution out of
+ * range or one for a kind that takes none; MT_ERROR_TOO_LARGE and MT_ERROR_OUT_OF_MEMORY as mt_mesh_create. */
 mt_status mt_generate(mt_context *context, const char *name, const mt_generate_options *options, mt_mesh **out);
 
 #ifdef __cplusplus
