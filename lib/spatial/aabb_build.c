@@ -1,29 +1,30 @@
 /* Top-down building by the spatial middle.
  *
  * A range is cut at the middle of the longest side of its centroids' bounds; where that leaves one side empty (all
- * centroids equal, or a difference lost in rounding) it is cut in the middle of its order, so the depth is bounded:
- * a side halves at most 175 times before two floats of [-2, 2] are equal, which makes 525 for three axes, and 32 more
- * for the count. The top of the tree is cut serially until ranges are
- * small enough to be tasks; each task builds its subtree in its own nodes, and the subtrees are then copied behind one
- * another in the order of their ranges. Nothing depends on the number of threads.
+ * centroids equal, or a difference lost in rounding) it is cut in the middle of its order. The top of the tree is cut
+ * serially until ranges are small enough to be tasks; each task builds its subtree in its own nodes, and the subtrees
+ * are then copied behind one another in the order of the tasks. Nothing depends on the number of threads.
  *
- * Cost: about log2(n) passes over 28 bytes a primitive. Known weakness: the surface-area heuristic makes better trees
- * for rays; for boxes against boxes of a surface the middle is as good and several times faster to find. */
+ * Cost: about log2(n) passes over 32 bytes a primitive. The depth is bounded: a side halves at most 175 times before
+ * two floats of [-2, 2] are equal, 525 times for three axes, and 32 more for the count. Known weakness: the
+ * surface-area heuristic makes better trees for rays; for boxes against boxes of a surface the middle is as good and
+ * several times faster to find. */
 #include "lib/spatial/aabb_build.h"
+#include "lib/spatial/box.h"
 
-#include <string.h>
-
-#define TASK_SIZE 8192      /* primitives of a subtree that one thread builds */
-#define STACK_CAPACITY 1024 /* more than the depth bound above */
+#define TASK_SIZE 8192    /* primitives of a subtree that one thread builds */
+#define STACK_CAPACITY 64 /* the logarithm of the largest count, and some */
 
 typedef struct build_range {
     mt_index begin, end;
     mt_index node; /* where its node goes */
+    box bounds;    /* of its primitives */
+    box centers;   /* of their doubled centroids: the sum needs no division, and orders the same */
 } build_range;
 
 typedef struct build_job {
     mt_context *context;
-    boxed_primitive *primitives;
+    mt_aabb_primitive *primitives;
     mt_aabb_node *top_nodes;
     mt_index top_count, top_capacity;
     build_range *tasks; /* ranges whose node in the top tree awaits a subtree */
@@ -32,108 +33,98 @@ typedef struct build_job {
     mt_index *subtree_counts;
 } build_job;
 
-static mt_box empty_box(void)
+static build_range bound_range(const mt_aabb_primitive *primitives, mt_index begin, mt_index end)
 {
-    mt_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    return box;
-}
-
-static void grow_box(mt_box *box, const mt_box *by)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        box->lower[axis] = by->lower[axis] < box->lower[axis] ? by->lower[axis] : box->lower[axis];
-        box->upper[axis] = by->upper[axis] > box->upper[axis] ? by->upper[axis] : box->upper[axis];
+    box bounds = box_empty(), centers = box_empty();
+    for (mt_index i = begin; i < end; i++) {
+        box one = box_load(primitives[i].lower);
+        float4 center = one.lower + one.upper;
+        bounds = box_join(bounds, one);
+        centers.lower = float4_minimum(centers.lower, center);
+        centers.upper = float4_maximum(centers.upper, center);
     }
+    return (build_range){begin, end, 0, bounds, centers};
 }
 
-/* Twice the centroid: the sum needs no division, and orders the same. */
-static float doubled_center(const mt_box *box, int axis)
+static bool is_below(const mt_aabb_primitive *primitive, int axis, float middle)
 {
-    return box->lower[axis] + box->upper[axis];
+    return primitive->lower[axis] + primitive->upper[axis] < middle;
 }
 
-/* The box of a range, and that of its doubled centroids. */
-static mt_box bound_range(const boxed_primitive *primitives, build_range range, mt_box *centers)
+/* Moves those below the middle to the front; returns where the others begin. */
+static mt_index partition(mt_aabb_primitive *primitives, const build_range *range, int axis, float middle)
 {
-    mt_box box = empty_box();
-    *centers = empty_box();
-    for (mt_index i = range.begin; i < range.end; i++) {
-        const mt_box *one = &primitives[i].box;
-        grow_box(&box, one);
-        mt_box point;
-        for (int axis = 0; axis < 3; axis++) {
-            point.lower[axis] = point.upper[axis] = doubled_center(one, axis);
-        }
-        grow_box(centers, &point);
-    }
-    return box;
-}
-
-static mt_index partition(boxed_primitive *primitives, build_range range, int axis, float middle)
-{
-    mt_index low = range.begin, high = range.end;
-    while (low < high) {
-        if (doubled_center(&primitives[low].box, axis) < middle) {
+    mt_index low = range->begin, high = range->end;
+    for (;;) {
+        while (low < high && is_below(&primitives[low], axis, middle)) {
             low++;
-        } else {
+        }
+        while (low < high && !is_below(&primitives[high - 1], axis, middle)) {
             high--;
-            boxed_primitive swapped = primitives[low];
-            primitives[low] = primitives[high];
-            primitives[high] = swapped;
         }
+        if (low == high) {
+            return low;
+        }
+        high--;
+        mt_aabb_primitive swapped = primitives[low];
+        primitives[low++] = primitives[high];
+        primitives[high] = swapped;
     }
-    return low;
 }
 
-static mt_index cut_range(boxed_primitive *primitives, build_range range, const mt_box *centers)
+static void cut_range(mt_aabb_primitive *primitives, const build_range *range, build_range parts[2])
 {
-    int axis = 0;
-    float longest = -1;
-    for (int i = 0; i < 3; i++) {
-        float length = centers->upper[i] - centers->lower[i];
-        if (length > longest) {
-            longest = length;
-            axis = i;
-        }
-    }
-    float middle = 0.5f * centers->lower[axis] + 0.5f * centers->upper[axis];
+    float4 lengths = range->centers.upper - range->centers.lower;
+    int axis = lengths[1] > lengths[0];
+    axis = lengths[2] > lengths[axis] ? 2 : axis;
+    float middle = 0.5f * range->centers.lower[axis] + 0.5f * range->centers.upper[axis];
     mt_index cut = partition(primitives, range, axis, middle);
-    bool one_sided = cut == range.begin || cut == range.end;
-    return one_sided ? range.begin + (range.end - range.begin) / 2 : cut;
+    if (cut == range->begin || cut == range->end) {
+        cut = range->begin + (range->end - range->begin) / 2;
+    }
+    parts[0] = bound_range(primitives, range->begin, cut);
+    parts[1] = bound_range(primitives, cut, range->end);
 }
 
-/* Fills the range's node; an inner one gets its two children's places at *count and pushes their ranges. */
-static bool make_node(boxed_primitive *primitives, build_range range, mt_aabb_node *nodes, mt_index *count,
-                      build_range children[2])
+/* Fills the range's node; an inner one gets its two children's places at *count, and their ranges in `parts`. */
+static bool make_node(mt_aabb_primitive *primitives, const build_range *range, mt_aabb_node *nodes, mt_index *count,
+                      build_range parts[2])
 {
-    mt_box centers;
-    mt_aabb_node *node = &nodes[range.node];
-    node->box = bound_range(primitives, range, &centers);
-    if (range.end - range.begin <= MT_AABB_LEAF_SIZE) {
-        node->first = range.begin;
-        node->count = range.end - range.begin;
+    mt_aabb_node *node = &nodes[range->node];
+    memcpy(node, &range->bounds, sizeof *node);
+    if (range->end - range->begin <= MT_AABB_LEAF_SIZE) {
+        node->first = range->begin;
+        node->count = range->end - range->begin;
         return false;
     }
-    mt_index cut = cut_range(primitives, range, &centers);
+    cut_range(primitives, range, parts);
     node->first = *count;
     node->count = 0;
-    children[0] = (build_range){range.begin, cut, *count};
-    children[1] = (build_range){cut, range.end, *count + 1};
+    parts[0].node = *count;
+    parts[1].node = *count + 1;
     *count += 2;
     return true;
 }
 
-static mt_index build_subtree(boxed_primitive *primitives, build_range range, mt_aabb_node *nodes)
+/* Smaller parts are built first, so that no more than the logarithm of the count waits. */
+static mt_index push_parts(build_range *stack, mt_index depth, const build_range parts[2])
 {
-    build_range stack[STACK_CAPACITY];
-    mt_index depth = 0, count = 1;
-    range.node = 0;
-    stack[depth++] = range;
+    int larger = parts[1].end - parts[1].begin > parts[0].end - parts[0].begin;
+    stack[depth] = parts[larger];
+    stack[depth + 1] = parts[!larger];
+    return depth + 2;
+}
+
+static mt_index build_subtree(mt_aabb_primitive *primitives, const build_range *root, mt_aabb_node *nodes)
+{
+    build_range stack[STACK_CAPACITY], parts[2];
+    mt_index depth = 1, count = 1;
+    stack[0] = *root;
+    stack[0].node = 0;
     while (depth) {
-        build_range children[2];
-        if (make_node(primitives, stack[--depth], nodes, &count, children)) {
-            stack[depth++] = children[1];
-            stack[depth++] = children[0];
+        build_range range = stack[--depth];
+        if (make_node(primitives, &range, nodes, &count, parts)) {
+            depth = push_parts(stack, depth, parts);
         }
     }
     return count;
@@ -143,8 +134,8 @@ static void build_subtrees(void *user, uint64_t begin, uint64_t end)
 {
     build_job *job = user;
     for (uint64_t task = begin; task < end; task++) {
-        build_range range = job->tasks[task];
-        uint64_t capacity = 2 * (uint64_t)(range.end - range.begin);
+        const build_range *range = &job->tasks[task];
+        uint64_t capacity = 2 * (uint64_t)(range->end - range->begin);
         mt_aabb_node *nodes = mt_try_allocate(job->context, capacity * sizeof *nodes);
         job->subtrees[task] = nodes;
         if (nodes) {
@@ -156,18 +147,17 @@ static void build_subtrees(void *user, uint64_t begin, uint64_t end)
 /* Cuts from the top until every range is a task. */
 static void build_top(build_job *job, mt_index count)
 {
-    build_range stack[STACK_CAPACITY];
-    mt_index depth = 0;
+    build_range stack[STACK_CAPACITY], parts[2];
+    mt_index depth = 1;
     job->top_count = 1;
-    stack[depth++] = (build_range){0, count, 0};
+    stack[0] = bound_range(job->primitives, 0, count);
     while (depth) {
-        build_range range = stack[--depth], children[2];
+        build_range range = stack[--depth];
         bool is_task = range.end - range.begin <= TASK_SIZE || job->top_count + 2 > job->top_capacity;
         if (is_task) {
             job->tasks[job->task_count++] = range;
-        } else if (make_node(job->primitives, range, job->top_nodes, &job->top_count, children)) {
-            stack[depth++] = children[1];
-            stack[depth++] = children[0];
+        } else if (make_node(job->primitives, &range, job->top_nodes, &job->top_count, parts)) {
+            depth = push_parts(stack, depth, parts);
         }
     }
 }
@@ -207,9 +197,10 @@ static mt_status join(const build_job *job, mt_aabb_tree *tree)
     return MT_OK;
 }
 
-mt_status mt_aabb_build(mt_context *context, boxed_primitive *primitives, mt_index count, mt_aabb_tree *tree)
+mt_status mt_aabb_build(mt_context *context, mt_aabb_tree *tree)
 {
-    build_job job = {.context = context, .primitives = primitives};
+    mt_index count = tree->primitive_count;
+    build_job job = {.context = context, .primitives = tree->primitives};
     job.top_capacity = 8 * (count / TASK_SIZE) + 64;
     job.top_nodes = mt_allocate_array(context, job.top_capacity, sizeof *job.top_nodes);
     job.tasks = mt_allocate_array(context, job.top_capacity, sizeof *job.tasks);

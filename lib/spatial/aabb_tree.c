@@ -1,7 +1,6 @@
 /* The tree's frame, the boxes of triangles, and the tree's invariants. Building is in aabb_build.c. */
 #include "lib/spatial/aabb_build.h"
-
-#include <string.h>
+#include "lib/spatial/box.h"
 
 typedef struct boxing {
     const mt_mesh *mesh;
@@ -9,43 +8,65 @@ typedef struct boxing {
     const uint8_t *skip;
     mt_vec3 center;
     double scale;
-    boxed_primitive *primitives; /* one a triangle; number MT_NONE: left out */
+    mt_aabb_primitive *primitives; /* one a triangle; number MT_NONE: left out */
 } boxing;
+
+/* The next float below or above, where rounding went past x; quicker than nextafterf, and zero steps to the smallest
+ * subnormal on either side. */
+static float step(float f, bool up)
+{
+    int32_t bits;
+    memcpy(&bits, &f, sizeof bits);
+    if (f == 0) {
+        return up ? 0x1p-149f : -0x1p-149f;
+    }
+    bits += (bits < 0) == up ? -1 : 1;
+    memcpy(&f, &bits, sizeof f);
+    return f;
+}
 
 static float round_down(double x)
 {
     float f = (float)x;
-    return (double)f > x ? nextafterf(f, -INFINITY) : f;
+    return (double)f > x ? step(f, false) : f;
 }
 
 static float round_up(double x)
 {
     float f = (float)x;
-    return (double)f < x ? nextafterf(f, INFINITY) : f;
+    return (double)f < x ? step(f, true) : f;
 }
 
-static void cover_coordinate(mt_box *box, int axis, double x)
+static double smallest(const double x[3])
 {
-    float lower = round_down(x), upper = round_up(x);
-    box->lower[axis] = lower < box->lower[axis] ? lower : box->lower[axis];
-    box->upper[axis] = upper > box->upper[axis] ? upper : box->upper[axis];
+    double m = x[0] < x[1] ? x[0] : x[1];
+    return m < x[2] ? m : x[2];
 }
 
-static bool box_triangle(const boxing *job, mt_index triangle, mt_box *box)
+static double largest(const double x[3])
 {
-    *box = (mt_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    double m = x[0] > x[1] ? x[0] : x[1];
+    return m > x[2] ? m : x[2];
+}
+
+static bool box_triangle(const boxing *job, mt_index triangle, mt_aabb_primitive *primitive)
+{
+    double x[3][3]; /* by axis, then corner */
+    double sum = 0;
     for (mt_index side = 0; side < 3; side++) {
         mt_index corner = mt_triangulation_corner(job->triangulation, triangle, side);
         mt_vec3 p = mt_mesh_position(job->mesh, job->mesh->corner_vertices[corner]);
-        if (!mt_vec3_is_finite(p)) {
-            return false;
-        }
         /* scaled before the subtraction, which could overflow */
-        cover_coordinate(box, 0, p.x * job->scale - job->center.x);
-        cover_coordinate(box, 1, p.y * job->scale - job->center.y);
-        cover_coordinate(box, 2, p.z * job->scale - job->center.z);
+        x[0][side] = p.x * job->scale - job->center.x;
+        x[1][side] = p.y * job->scale - job->center.y;
+        x[2][side] = p.z * job->scale - job->center.z;
+        sum += x[0][side] + x[1][side] + x[2][side];
     }
-    return true;
+    for (int axis = 0; axis < 3; axis++) {
+        primitive->lower[axis] = round_down(smallest(x[axis]));
+        primitive->upper[axis] = round_up(largest(x[axis]));
+    }
+    return isfinite(sum); /* the frame keeps finite points within 2 of the origin */
 }
 
 static void box_triangles(void *user, uint64_t begin, uint64_t end)
@@ -54,8 +75,9 @@ static void box_triangles(void *user, uint64_t begin, uint64_t end)
     for (uint64_t i = begin; i < end; i++) {
         mt_index triangle = (mt_index)i;
         bool kept = !(job->skip && job->skip[triangle]);
-        kept = kept && box_triangle(job, triangle, &job->primitives[i].box);
+        kept = kept && box_triangle(job, triangle, &job->primitives[i]);
         job->primitives[i].number = kept ? triangle : MT_NONE;
+        job->primitives[i].face = mt_triangulation_face(job->triangulation, triangle);
     }
 }
 
@@ -81,7 +103,7 @@ static void choose_frame(const mt_mesh *mesh, boxing *job)
     }
 }
 
-static mt_index drop_left_out(boxed_primitive *primitives, mt_index count)
+static mt_index drop_left_out(mt_aabb_primitive *primitives, mt_index count)
 {
     mt_index kept = 0;
     for (mt_index i = 0; i < count; i++) {
@@ -92,41 +114,19 @@ static mt_index drop_left_out(boxed_primitive *primitives, mt_index count)
     return kept;
 }
 
-typedef struct unpacking {
-    const boxed_primitive *primitives;
-    mt_aabb_tree *tree;
-} unpacking;
-
-static void unpack(void *user, uint64_t begin, uint64_t end)
-{
-    const unpacking *job = user;
-    for (uint64_t i = begin; i < end; i++) {
-        job->tree->primitives[i] = job->primitives[i].number;
-        job->tree->boxes[i] = job->primitives[i].box;
-    }
-}
-
 static mt_status fill_tree(mt_context *context, boxing *job, mt_aabb_tree *tree)
 {
     mt_index count = job->triangulation->triangle_count;
-    mt_parallel_for(context, count, 16384, box_triangles, job);
-    tree->primitive_count = drop_left_out(job->primitives, count);
-    tree->center = job->center;
-    tree->scale = job->scale;
-    tree->primitives = mt_allocate_array(context, tree->primitive_count, sizeof *tree->primitives);
-    tree->boxes = mt_allocate_array(context, tree->primitive_count, sizeof *tree->boxes);
-    if (!tree->primitives || !tree->boxes) {
+    tree->primitives = mt_allocate_array(context, count, sizeof *tree->primitives);
+    if (!tree->primitives) {
         return mt_context_error(context)->status;
     }
-    if (!tree->primitive_count) {
-        return MT_OK;
-    }
-    mt_status status = mt_aabb_build(context, job->primitives, tree->primitive_count, tree);
-    if (status == MT_OK) {
-        unpacking copy = {job->primitives, tree};
-        mt_parallel_for(context, tree->primitive_count, 65536, unpack, &copy);
-    }
-    return status;
+    job->primitives = tree->primitives;
+    mt_parallel_for(context, count, 16384, box_triangles, job);
+    tree->primitive_count = drop_left_out(tree->primitives, count);
+    tree->center = job->center;
+    tree->scale = job->scale;
+    return tree->primitive_count ? mt_aabb_build(context, tree) : MT_OK;
 }
 
 mt_status mt_aabb_tree_create(mt_context *context, const mt_mesh *mesh, const mt_triangulation *triangulation,
@@ -136,13 +136,8 @@ mt_status mt_aabb_tree_create(mt_context *context, const mt_mesh *mesh, const mt
     int part = mt_part_begin(context, "tree of boxes", "which triangles can meet");
     boxing job = {.mesh = mesh, .triangulation = triangulation, .skip = skip};
     choose_frame(mesh, &job);
-    mt_status status = MT_ERROR_OUT_OF_MEMORY;
     mt_aabb_tree *tree = mt_allocate_zeroed(context, sizeof *tree);
-    job.primitives = mt_allocate_array(context, triangulation->triangle_count, sizeof *job.primitives);
-    if (tree && job.primitives) {
-        status = fill_tree(context, &job, tree);
-    }
-    mt_free(context, job.primitives);
+    mt_status status = tree ? fill_tree(context, &job, tree) : MT_ERROR_OUT_OF_MEMORY;
     if (status == MT_OK) {
         *out = tree;
     } else {
@@ -157,15 +152,15 @@ void mt_aabb_tree_destroy(mt_context *context, mt_aabb_tree *tree)
     if (tree) {
         mt_free(context, tree->nodes);
         mt_free(context, tree->primitives);
-        mt_free(context, tree->boxes);
         mt_free(context, tree);
     }
 }
 
-static bool box_contains(const mt_box *outer, const mt_box *inner)
+static bool box_contains(const float outer_lower[3], const float inner_lower[3])
 {
+    box outer = box_load(outer_lower), inner = box_load(inner_lower);
     for (int axis = 0; axis < 3; axis++) {
-        if (!(outer->lower[axis] <= inner->lower[axis] && inner->upper[axis] <= outer->upper[axis])) {
+        if (!(outer.lower[axis] <= inner.lower[axis] && inner.upper[axis] <= outer.upper[axis])) {
             return false;
         }
     }
@@ -179,7 +174,7 @@ static mt_status check_leaf(mt_context *context, const mt_aabb_tree *tree, mt_in
         return mt_fail(context, MT_ERROR_INTERNAL, "leaf %u reaches past the primitives", number);
     }
     for (mt_index i = node->first; i < node->first + node->count; i++) {
-        if (seen[i]++ || !box_contains(&node->box, &tree->boxes[i])) {
+        if (seen[i]++ || !box_contains(node->lower, tree->primitives[i].lower)) {
             return mt_fail(context, MT_ERROR_INTERNAL, "primitive place %u is in two leaves or out of its box", i);
         }
     }
@@ -193,7 +188,7 @@ static mt_status check_inner(mt_context *context, const mt_aabb_tree *tree, mt_i
         return mt_fail(context, MT_ERROR_INTERNAL, "node %u has children at %u", number, node->first);
     }
     for (mt_index child = node->first; child < node->first + 2; child++) {
-        if (!box_contains(&node->box, &tree->nodes[child].box)) {
+        if (!box_contains(node->lower, tree->nodes[child].lower)) {
             return mt_fail(context, MT_ERROR_INTERNAL, "node %u reaches out of its parent %u", child, number);
         }
     }

@@ -4,7 +4,8 @@
  * two different ones, of which the larger is opened while their boxes overlap. The first pairs are opened breadth
  * first until there are enough to be tasks. No recursion: a pair of nodes opens into at most three, so the stack of a
  * task stays below twice the depth of both. */
-#include <meshtool/aabb_tree.h>
+#include "lib/spatial/aabb_build.h"
+#include "lib/spatial/box.h"
 
 #define BATCH_SIZE 1024
 #define STACK_CAPACITY 4096 /* aabb_build.c bounds the depth by 557 */
@@ -37,30 +38,41 @@ static void flush(pair_batch *batch)
     batch->count = 0;
 }
 
-static void add_places(pair_batch *batch, mt_index i, mt_index j)
+/* The pairs of one primitive with those in [begin, end). */
+static void add_row(pair_batch *batch, const mt_aabb_primitive *one, mt_index begin, mt_index end)
 {
-    const mt_aabb_tree *tree = batch->search->tree;
-    if (mt_box_overlaps(&tree->boxes[i], &tree->boxes[j])) {
-        batch->pairs[batch->count++] = (mt_primitive_pair){tree->primitives[i], tree->primitives[j]};
-        if (batch->count == BATCH_SIZE) {
-            flush(batch);
-        }
+    const mt_aabb_primitive *primitives = batch->search->tree->primitives;
+    box own = box_load(one->lower);
+    if (batch->count + MT_AABB_LEAF_SIZE > BATCH_SIZE) {
+        flush(batch);
+    }
+    for (mt_index j = begin; j < end; j++) {
+        batch->pairs[batch->count] = (mt_primitive_pair){one->number, primitives[j].number};
+        batch->count += box_overlaps(own, box_load(primitives[j].lower)); /* no branch: half of them do */
     }
 }
 
 static void add_leaf_pairs(pair_batch *batch, const mt_aabb_node *a, const mt_aabb_node *b)
 {
+    const mt_aabb_primitive *primitives = batch->search->tree->primitives;
+    box other = box_load(b->lower);
     for (mt_index i = a->first; i < a->first + a->count; i++) {
-        for (mt_index j = a == b ? i + 1 : b->first; j < b->first + b->count; j++) {
-            add_places(batch, i, j);
+        if (box_overlaps(box_load(primitives[i].lower), other)) {
+            add_row(batch, &primitives[i], a == b ? i + 1 : b->first, b->first + b->count);
         }
     }
 }
 
-static float half_area(const mt_box *box)
+static float half_area(const mt_aabb_node *node)
 {
-    float x = box->upper[0] - box->lower[0], y = box->upper[1] - box->lower[1], z = box->upper[2] - box->lower[2];
-    return x * y + y * z + z * x;
+    box b = box_load(node->lower);
+    float4 side = b.upper - b.lower;
+    return side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
+}
+
+static bool nodes_overlap(const mt_aabb_node *a, const mt_aabb_node *b)
+{
+    return box_overlaps(box_load(a->lower), box_load(b->lower));
 }
 
 /* Opens a pair into at most three, those that can still hold overlapping primitives; returns how many. Not for two
@@ -72,14 +84,14 @@ static int open_pair(const mt_aabb_tree *tree, node_pair pair, node_pair opened[
         opened[0] = (node_pair){a->first, a->first};
         opened[1] = (node_pair){a->first + 1, a->first + 1};
         opened[2] = (node_pair){a->first, a->first + 1};
-        return mt_box_overlaps(&tree->nodes[a->first].box, &tree->nodes[a->first + 1].box) ? 3 : 2;
+        return nodes_overlap(&tree->nodes[a->first], &tree->nodes[a->first + 1]) ? 3 : 2;
     }
-    bool open_a = b->count || (!a->count && half_area(&a->box) >= half_area(&b->box));
+    bool open_a = b->count || (!a->count && half_area(a) >= half_area(b));
     const mt_aabb_node *larger = open_a ? a : b, *other = open_a ? b : a;
     mt_index other_number = open_a ? pair.b : pair.a;
     int count = 0;
     for (mt_index child = larger->first; child < larger->first + 2; child++) {
-        if (mt_box_overlaps(&tree->nodes[child].box, &other->box)) {
+        if (nodes_overlap(&tree->nodes[child], other)) {
             opened[count++] = (node_pair){child, other_number};
         }
     }

@@ -13,23 +13,26 @@
 extern "C" {
 #endif
 
-typedef struct mt_box {
-    float lower[3], upper[3];
-} mt_box;
-
-/* 32 bytes. The children of an inner node stand side by side. */
+/* A box and two numbers, 32 bytes, laid out so that each half loads as one vector of four. */
 typedef struct mt_aabb_node {
-    mt_box box;
-    mt_index first; /* inner: number of the left child, the right is first + 1; leaf: first place in `primitives` */
+    float lower[3];
+    mt_index first; /* inner: number of the left child, the right is first + 1; leaf: first of its `primitives` */
+    float upper[3];
     mt_index count; /* primitives of a leaf, at least 1; 0 for an inner node */
 } mt_aabb_node;
+
+typedef struct mt_aabb_primitive {
+    float lower[3];
+    mt_index number; /* of the triangle */
+    float upper[3];
+    mt_index face; /* that the triangle is part of */
+} mt_aabb_primitive;
 
 typedef struct mt_aabb_tree {
     mt_index node_count; /* 0 when there are no primitives; else node 0 is the root */
     mt_index primitive_count;
     mt_aabb_node *nodes;
-    mt_index *primitives; /* numbers of the primitives, leaf by leaf */
-    mt_box *boxes;        /* the primitives' boxes, in the order of `primitives` */
+    mt_aabb_primitive *primitives; /* leaf by leaf */
     mt_vec3 center;
     double scale;
 } mt_aabb_tree;
@@ -44,12 +47,6 @@ void mt_aabb_tree_destroy(mt_context *context, mt_aabb_tree *tree);
 
 /* Checks every invariant: each primitive in one leaf, each box within its parent's. MT_ERROR_INTERNAL. O(size). */
 mt_status mt_aabb_tree_validate(mt_context *context, const mt_aabb_tree *tree);
-
-static inline bool mt_box_overlaps(const mt_box *a, const mt_box *b)
-{
-    return a->lower[0] <= b->upper[0] && b->lower[0] <= a->upper[0] && a->lower[1] <= b->upper[1] &&
-           b->lower[1] <= a->upper[1] && a->lower[2] <= b->upper[2] && b->lower[2] <= a->upper[2];
-}
 
 /* Two primitives whose boxes overlap; a != b, each unordered pair once. */
 typedef struct mt_primitive_pair {
