@@ -24,7 +24,11 @@ static double_double angle_in_octant(double_double y, double_double x)
 {
     int index = (int)(64 * (y.high / x.high) + 0.5);
     double t = index / 64.0;
-    double_double u = dd_divide(dd_subtract(y, dd_multiply_double(x, t)), dd_add(x, dd_multiply_double(y, t)));
+    double_double up = dd_product(x.high, t), along = dd_product(y.high, t);
+    double_double numerator = dd_sum(y.high, -up.high), denominator = dd_quick_sum(x.high, along.high);
+    numerator.low += y.low - up.low - x.low * t;
+    denominator.low += x.low + along.low + y.low * t;
+    double_double u = dd_divide(numerator, denominator);
     double h = u.high, square = h * h;
     double cubic = h * square * (1.0 / 3 - square * (1.0 / 5 - square * (1.0 / 7 - square * (1.0 / 9))));
     double_double offset = mt_table_arctangent[index];
@@ -109,10 +113,14 @@ static double_double angle_of_magnitudes(double y, double x)
     if (small / large < TINY_RATIO) {
         return y > x ? half_pi : from_double(y / x);
     }
-    /* Brings the larger into [1/2, 1); the smaller is then normal too, so both steps are exact. */
-    int exponent = 0;
-    (void)frexp(large, &exponent);
-    return angle_in_quadrant(from_double(ldexp(y, -exponent)), from_double(ldexp(x, -exponent)));
+    if (large > 0x1p300 || large < 0x1p-300) {
+        /* Brings the larger into [1/2, 1); the smaller is then normal too, so both steps are exact. */
+        int exponent = 0;
+        (void)frexp(large, &exponent);
+        y = ldexp(y, -exponent);
+        x = ldexp(x, -exponent);
+    }
+    return angle_in_quadrant(from_double(y), from_double(x));
 }
 
 double mt_atan2(double y, double x)

@@ -1,24 +1,16 @@
+/* The sign of orientations: conventions, exactness beside integers, symmetry, the ends of the range of doubles. The
+ * oracle compares many more with rationals. */
+#include "tests/support/fixture.h"
+#include "tests/support/unit.h"
+
 #include <meshtool/predicates.h>
 
 #include <float.h>
-#include <setjmp.h>
-#include <stdarg.h>
-
-#include <cmocka.h>
-
-/* xorshift64*: the same numbers on every machine. */
-static uint64_t next_random(uint64_t *state)
-{
-    *state ^= *state >> 12;
-    *state ^= *state << 25;
-    *state ^= *state >> 27;
-    return *state * UINT64_C(2685821657736338717);
-}
 
 /* An integer of magnitude below 2^bits. */
-static double next_integer(uint64_t *state, int bits)
+static double next_integer(test_random *random, int bits)
 {
-    return (double)((int64_t)next_random(state) >> (63 - bits));
+    return (double)((int64_t)test_random_next(random) >> (63 - bits));
 }
 
 static int orient2d(double ax, double ay, double bx, double by, double cx, double cy)
@@ -69,13 +61,13 @@ static void one_step_off_the_diagonal(void **state)
 static void integers_agree_with_64_bit_arithmetic(void **state)
 {
     (void)state;
-    uint64_t seed = 11;
+    test_random random = {11};
     for (int i = 0; i < 20000; i++) {
         int bits = i % 2 == 0 ? 2 : 18;
         double p[4][3];
         int64_t q[3][3];
         for (int j = 0; j < 12; j++) {
-            p[j / 3][j % 3] = next_integer(&seed, bits);
+            p[j / 3][j % 3] = next_integer(&random, bits);
         }
         for (int j = 0; j < 9; j++) {
             q[j / 3][j % 3] = (int64_t)p[j / 3][j % 3] - (int64_t)p[3][j % 3];
@@ -97,26 +89,26 @@ static void integers_agree_with_64_bit_arithmetic(void **state)
 }
 
 /* A random coordinate of any exponent, or one of the ends of the range. */
-static double next_extreme(uint64_t *state)
+static double next_extreme(test_random *random)
 {
     static const double ends[] = {0, 0x1p-1074, 0x1p-1022, 1e-300, 1e300, DBL_MAX, 1, 0x1.8p1023};
-    uint64_t choice = next_random(state) >> 32;
+    uint64_t choice = test_random_next(random) >> 32;
     double sign = (choice & 1) != 0 ? -1 : 1;
     if ((choice & 2) != 0) {
         return sign * ends[(choice >> 2) & 7];
     }
-    return ldexp(next_integer(state, 53), (int)((choice >> 2) % 2040) - 1074);
+    return ldexp(next_integer(random, 53), (int)((choice >> 2) % 2040) - 1074);
 }
 
 static void swaps_change_the_sign_even_at_the_extremes(void **state)
 {
     (void)state;
-    uint64_t seed = 13;
+    test_random random = {13};
     int seen[3] = {0, 0, 0};
     for (int i = 0; i < 20000; i++) {
         mt_vec3 v[4];
         for (int j = 0; j < 4; j++) {
-            v[j] = mt_vec3_make(next_extreme(&seed), next_extreme(&seed), next_extreme(&seed));
+            v[j] = mt_vec3_make(next_extreme(&random), next_extreme(&random), next_extreme(&random));
         }
         int sign = mt_orient3d(v[0], v[1], v[2], v[3]);
         seen[sign + 1]++;
@@ -182,12 +174,12 @@ static void not_finite_is_zero(void **state)
 static void collinear_is_exact(void **state)
 {
     (void)state;
-    uint64_t seed = 17;
+    test_random random = {17};
     for (int i = 0; i < 5000; i++) {
-        mt_vec3 a = {next_integer(&seed, 20), next_integer(&seed, 20), next_integer(&seed, 20)};
-        mt_vec3 step = {next_integer(&seed, 20), next_integer(&seed, 20), next_integer(&seed, 20)};
-        mt_vec3 b = mt_vec3_add(a, mt_vec3_scale(step, next_integer(&seed, 5)));
-        mt_vec3 c = mt_vec3_add(a, mt_vec3_scale(step, next_integer(&seed, 5)));
+        mt_vec3 a = {next_integer(&random, 20), next_integer(&random, 20), next_integer(&random, 20)};
+        mt_vec3 step = {next_integer(&random, 20), next_integer(&random, 20), next_integer(&random, 20)};
+        mt_vec3 b = mt_vec3_add(a, mt_vec3_scale(step, next_integer(&random, 5)));
+        mt_vec3 c = mt_vec3_add(a, mt_vec3_scale(step, next_integer(&random, 5)));
         assert_true(mt_collinear(a, b, c));
         assert_true(mt_collinear(a, b, b));
         bool has_length = step.x != 0 && !(b.x == a.x && b.y == a.y && b.z == a.z);

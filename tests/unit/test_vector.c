@@ -1,23 +1,14 @@
+/* Scaling by powers of two and unit vectors, from the smallest subnormal to the largest double. */
+#include "tests/support/fixture.h"
+#include "tests/support/unit.h"
+
 #include <meshtool/vector.h>
 
 #include <float.h>
-#include <setjmp.h>
-#include <stdarg.h>
 
-#include <cmocka.h>
-
-/* xorshift64*: the same numbers on every machine. */
-static uint64_t next_random(uint64_t *state)
+static double next_signed_unit(test_random *random)
 {
-    *state ^= *state >> 12;
-    *state ^= *state << 25;
-    *state ^= *state >> 27;
-    return *state * UINT64_C(2685821657736338717);
-}
-
-static double next_signed_unit(uint64_t *state)
-{
-    return (double)(int64_t)next_random(state) * 0x1p-63;
+    return 2 * test_random_unit(random) - 1;
 }
 
 static void assert_same(mt_vec3 a, mt_vec3 b)
@@ -59,12 +50,12 @@ static void scale_of_zero_and_not_finite_is_one(void **state)
 static void unit_vectors_do_not_depend_on_the_size(void **state)
 {
     (void)state;
-    uint64_t seed = 7;
+    test_random random = {7};
     for (int i = 0; i < 2000; i++) {
-        mt_vec3 v = {next_signed_unit(&seed), next_signed_unit(&seed), next_signed_unit(&seed)};
+        mt_vec3 v = {next_signed_unit(&random), next_signed_unit(&random), next_signed_unit(&random)};
         mt_vec3 unit = mt_vec3_normalize(v);
         assert_true(fabs(mt_vec3_length(unit) - 1) <= 4 * DBL_EPSILON);
-        int exponent = (int)(next_random(&seed) % 1900) - 950;
+        int exponent = (int)(test_random_below(&random, 1900)) - 950;
         mt_vec3 scaled = {ldexp(v.x, exponent), ldexp(v.y, exponent), ldexp(v.z, exponent)};
         assert_same(mt_vec3_normalize(scaled), unit);
     }

@@ -1,8 +1,8 @@
 /* Elementary functions whose bits do not depend on the machine. libm's differ in the last bit
  * between CPUs (glibc picks fused variants at run time), so every result of the library goes
  * through these. Each is within 1 ulp of the exact value over its whole domain (0.56 measured against
- * MPFR, 0.75 where exp and pow are subnormal); special values are those of C17 Annex F, errno and the
- * exception flags are left alone. sqrt, fabs, floor and their exact kin are libm's: they are exact. */
+ * MPFR, 0.75 where exp and pow are subnormal); special values are those of C17 Annex F, errno is
+ * not set and the exception flags say nothing. sqrt, fabs, floor and their exact kin are libm's: they are exact. */
 #ifndef MESHTOOL_ELEMENTARY_H
 #define MESHTOOL_ELEMENTARY_H
 
