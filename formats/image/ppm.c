@@ -1,0 +1,89 @@
+/* The netpbm family: PPM (colour), PGM (grey), PAM (either, with alpha), binary, 8 or 16 bits. */
+#include "formats/image/image_format.h"
+#include "formats/stream/output.h"
+
+typedef struct rows_writer {
+    mt_output *output;
+    size_t row_size;
+} rows_writer;
+
+static mt_status write_rows(mt_context *context, void *user, const unsigned char *bytes, uint32_t row_count)
+{
+    const rows_writer *writer = (const rows_writer *)user;
+    return mt_output_write(context, writer->output, bytes, row_count * writer->row_size);
+}
+
+static mt_status write_body(mt_context *context, const mt_image *image, unsigned bits, mt_output *output)
+{
+    rows_writer writer = {output, (size_t)image->width * image->channel_count * (bits / 8)};
+    return mt_image_write_bands(context, image, bits, write_rows, &writer);
+}
+
+static mt_status get_bits(mt_context *context, const mt_image_write_options *options, unsigned *out)
+{
+    *out = options && options->bits ? options->bits : 8;
+    if (*out != 8 && *out != 16) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "netpbm pictures hold 8 or 16 bits a channel, not %u", *out);
+    }
+    return MT_OK;
+}
+
+/* P5 and P6 have the same header. */
+static mt_status write_plain(mt_context *context, const mt_image *image, const mt_image_write_options *options,
+                             mt_output *output)
+{
+    unsigned bits = 0;
+    mt_status status = get_bits(context, options, &bits);
+    if (status == MT_OK) {
+        status = mt_output_format(context, output, "P%c\n%u %u\n%u\n", image->channel_count == 1 ? '5' : '6',
+                                  image->width, image->height, (1u << bits) - 1u);
+    }
+    return status == MT_OK ? write_body(context, image, bits, output) : status;
+}
+
+static mt_status write_ppm(mt_context *context, const mt_image *image, const mt_image_write_options *options,
+                           mt_output *output)
+{
+    if (image->channel_count == 4) {
+        return mt_fail(context, MT_ERROR_UNSUPPORTED,
+                       "PPM holds no transparency: write .png or .pam, or give a background");
+    }
+    return write_plain(context, image, options, output);
+}
+
+static mt_status write_pgm(mt_context *context, const mt_image *image, const mt_image_write_options *options,
+                           mt_output *output)
+{
+    if (image->channel_count != 1) {
+        return mt_fail(context, MT_ERROR_UNSUPPORTED, "PGM holds grey pictures only: write .ppm, .pam or .png");
+    }
+    return write_plain(context, image, options, output);
+}
+
+static mt_status write_pam(mt_context *context, const mt_image *image, const mt_image_write_options *options,
+                           mt_output *output)
+{
+    static const char *const kinds[] = {"", "GRAYSCALE", "", "RGB", "RGB_ALPHA"};
+    unsigned bits = 0;
+    mt_status status = get_bits(context, options, &bits);
+    if (status == MT_OK) {
+        status = mt_output_format(context, output,
+                                  "P7\nWIDTH %u\nHEIGHT %u\nDEPTH %u\nMAXVAL %u\nTUPLTYPE %s\nENDHDR\n", image->width,
+                                  image->height, image->channel_count, (1u << bits) - 1u, kinds[image->channel_count]);
+    }
+    return status == MT_OK ? write_body(context, image, bits, output) : status;
+}
+
+static const char *const ppm_extensions[] = {"ppm", "pnm", NULL};
+static const char *const pgm_extensions[] = {"pgm", NULL};
+static const char *const pam_extensions[] = {"pam", NULL};
+
+const mt_image_format mt_ppm_format = {
+    .name = "ppm", .title = "Portable pixmap", .extensions = ppm_extensions, .write = write_ppm};
+const mt_image_format mt_pgm_format = {
+    .name = "pgm", .title = "Portable graymap", .extensions = pgm_extensions, .write = write_pgm};
+const mt_image_format mt_pam_format = {.name = "pam",
+                                       .title = "Portable arbitrary map",
+                                       .extensions = pam_extensions,
+                                       .holds_alpha = true,
+                                       .write = write_pam};

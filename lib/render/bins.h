@@ -1,0 +1,40 @@
+/* Which primitives touch which tile of the picture. */
+#ifndef MESHTOOL_RENDER_BINS_H
+#define MESHTOOL_RENDER_BINS_H
+
+#include <meshtool/context.h>
+
+/* Pixels along a side of a tile: 32 x 32 pixels of 16 samples fill 128 KB, which stays in a core's own cache. */
+#define MT_TILE_SIZE 32
+
+/* Tiles, first and last column and row. Empty when first_x > last_x. */
+typedef struct mt_tile_range {
+    uint16_t first_x, first_y, last_x, last_y;
+} mt_tile_range;
+
+/* What is sorted into tiles: numbers 0 to count - 1. */
+typedef struct mt_binned {
+    const void *user;
+    mt_index count;
+    mt_tile_range (*range)(const void *user, mt_index number);
+    /* Whether a primitive whose range has several tiles touches this one; may be true too often. */
+    bool (*touches)(const void *user, mt_index number, uint32_t tile_x, uint32_t tile_y);
+} mt_binned;
+
+typedef struct mt_bins {
+    uint32_t tiles_x, tiles_y;
+    size_t *firsts;    /* per tile the first of its numbers, and one more */
+    mt_index *numbers; /* ascending within a tile */
+    mt_index *large;   /* primitives of very many tiles are not listed by tile; ascending */
+    mt_index large_count;
+} mt_bins;
+
+/* Cost: two passes over the primitives, four bytes for each tile that one touches. */
+mt_status mt_bins_init(mt_context *context, const mt_binned *binned, uint32_t width, uint32_t height, mt_bins *bins);
+void mt_bins_release(mt_context *context, mt_bins *bins);
+
+/* The tiles of a rectangle of pixels, clipped to the picture. */
+mt_tile_range mt_tile_range_of(int64_t first_x, int64_t first_y, int64_t last_x, int64_t last_y, uint32_t width,
+                               uint32_t height);
+
+#endif

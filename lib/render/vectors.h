@@ -1,0 +1,29 @@
+/* Vectors of samples, as gcc and clang have them in C.
+ *
+ * Loops whose speed wider instructions raise are compiled twice, and the processor chooses when the program starts.
+ * Results do not differ: nothing is contracted or reassociated. Sanitizers start too late for the choice. */
+#ifndef MESHTOOL_RENDER_VECTORS_H
+#define MESHTOOL_RENDER_VECTORS_H
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define MT_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define MT_SANITIZED 1
+#endif
+#endif
+
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(MT_SANITIZED)
+#define MT_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define MT_CLONES
+#endif
+
+#include <stdint.h>
+
+typedef double vector4d __attribute__((vector_size(32), may_alias));
+typedef int64_t vector4l __attribute__((vector_size(32), may_alias));
+typedef float vector4f __attribute__((vector_size(16), may_alias));
+typedef int32_t vector4i __attribute__((vector_size(16), may_alias));
+
+#endif
