@@ -48,7 +48,7 @@ static void add_row(pair_batch *batch, const mt_aabb_primitive *one, mt_index be
     }
     for (mt_index j = begin; j < end; j++) {
         batch->pairs[batch->count] = (mt_primitive_pair){one->number, primitives[j].number};
-        batch->count += box_overlaps(own, box_load(primitives[j].lower)); /* no branch: half of them do */
+        batch->count += box_overlaps(own, box_load(&primitives[j])); /* no branch: half of them do */
     }
 }
 
@@ -57,7 +57,7 @@ static void add_leaf_pairs(pair_batch *batch, const mt_aabb_node *a, const mt_aa
     const mt_aabb_primitive *primitives = batch->search->tree->primitives;
     box other = box_load(b->lower);
     for (mt_index i = a->first; i < a->first + a->count; i++) {
-        if (box_overlaps(box_load(primitives[i].lower), other)) {
+        if (box_overlaps(box_load(&primitives[i]), other)) {
             add_row(batch, &primitives[i], a == b ? i + 1 : b->first, b->first + b->count);
         }
     }
