@@ -6,6 +6,11 @@
 #define BLOCK_SIZE ((size_t)512 << 10)
 #define WAVE 64 /* blocks between two reports of progress */
 
+const char *mt_text_name(const mt_text *text)
+{
+    return mt_input_name(text->input);
+}
+
 uint64_t mt_text_block_count(const mt_text *text)
 {
     return text->block_count;

@@ -35,6 +35,8 @@ typedef struct mt_text_options {
 mt_status mt_text_open(mt_context *context, mt_input *input, const mt_text_options *options, mt_text **out);
 void mt_text_close(mt_context *context, mt_text *text); /* NULL is allowed */
 
+/* The input's name, for warnings. */
+const char *mt_text_name(const mt_text *text);
 uint64_t mt_text_block_count(const mt_text *text);
 unsigned mt_text_slot_count(const mt_text *text);
 /* Bytes from the opening to the end. */

@@ -1,0 +1,85 @@
+/* Wavefront OBJ: its record, and how it is recognised. */
+#include "formats/mesh/obj.h"
+
+#include "formats/mesh/records.h"
+
+#include <string.h>
+
+static bool is_blank(uint8_t c)
+{
+    return c == ' ' || c == '\t';
+}
+
+static bool is_line_end(uint8_t c)
+{
+    return c == '\n' || c == '\r';
+}
+
+/* What the first word of a line says: 2 a statement that OBJ files are made of, 1 one that may be in them, 0 none, or
+ * an empty line or comment, -1 something else. */
+static int judge_line(const uint8_t *line, size_t size)
+{
+    static const char *const strong[] = {"v", "vt", "vn", "f", "mtllib", "usemtl"};
+    static const char *const weak[] = {"g", "o", "s", "l", "p", "t"};
+    size_t begin = 0;
+    while (begin < size && is_blank(line[begin])) {
+        begin++;
+    }
+    size_t end = begin;
+    while (end < size && !is_blank(line[end])) {
+        end++;
+    }
+    if (begin == end || line[begin] == '#') {
+        return 0;
+    }
+    for (size_t i = 0; i < sizeof strong / sizeof strong[0]; i++) {
+        if (strlen(strong[i]) == end - begin && memcmp(line + begin, strong[i], end - begin) == 0) {
+            return end < size ? 2 : 1;
+        }
+    }
+    for (size_t i = 0; i < sizeof weak / sizeof weak[0]; i++) {
+        if (strlen(weak[i]) == end - begin && memcmp(line + begin, weak[i], end - begin) == 0) {
+            return 1;
+        }
+    }
+    return -1;
+}
+
+static int sniff_obj(const uint8_t *bytes, size_t size, uint64_t total)
+{
+    size_t strong = 0, weak = 0, strange = 0;
+    size_t at = size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+    if (memchr(bytes, 0, size)) {
+        return 0;
+    }
+    while (at < size) {
+        size_t end = at;
+        while (end < size && !is_line_end(bytes[end])) {
+            end++;
+        }
+        if (end < size || size == total) {
+            int verdict = judge_line(bytes + at, end - at);
+            strong += verdict == 2;
+            weak += verdict == 1;
+            strange += verdict < 0;
+        }
+        at = end + 1;
+    }
+    if (strong == 0) {
+        return weak > strange ? 20 : 0;
+    }
+    return strange == 0 ? 80 : strong > strange ? 60 : 20;
+}
+
+const mt_mesh_format mt_obj_format = {
+    .name = "obj",
+    .title = "Wavefront OBJ",
+    .extensions = (const char *const[]){"obj", NULL},
+    .abilities = MT_HOLDS_POLYGONS | MT_HOLDS_INDICES | MT_HOLDS_WIRES | MT_HOLDS_POINTS | MT_HOLDS_VERTEX_NORMALS |
+                 MT_HOLDS_CORNER_NORMALS | MT_HOLDS_VERTEX_UVS | MT_HOLDS_CORNER_UVS | MT_HOLDS_UV_DEPTH |
+                 MT_HOLDS_VERTEX_COLORS | MT_HOLDS_GROUPS | MT_HOLDS_LIBRARIES | MT_HOLDS_CREASES | MT_HOLDS_F64,
+    .has_ascii = true,
+    .sniff = sniff_obj,
+    .read = mt_obj_read,
+    .write = mt_obj_write,
+};

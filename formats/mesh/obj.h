@@ -1,0 +1,11 @@
+/* What the files of the OBJ format give to its record. */
+#ifndef MESHTOOL_OBJ_H
+#define MESHTOOL_OBJ_H
+
+#include <meshtool/mesh_format.h>
+
+mt_status mt_obj_read(mt_context *context, mt_input *input, const mt_mesh_read_options *options, mt_mesh **out);
+mt_status mt_obj_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options,
+                       mt_output *output);
+
+#endif
