@@ -37,7 +37,7 @@ static build_range bound_range(const mt_aabb_primitive *primitives, mt_index beg
 {
     box bounds = box_empty(), centers = box_empty();
     for (mt_index i = begin; i < end; i++) {
-        box one = box_load(primitives[i].lower);
+        box one = box_load(&primitives[i]);
         float4 center = one.lower + one.upper;
         bounds = box_join(bounds, one);
         centers.lower = float4_minimum(centers.lower, center);

@@ -156,9 +156,9 @@ void mt_aabb_tree_destroy(mt_context *context, mt_aabb_tree *tree)
     }
 }
 
-static bool box_contains(const float outer_lower[3], const float inner_lower[3])
+static bool box_contains(const void *outer_record, const void *inner_record)
 {
-    box outer = box_load(outer_lower), inner = box_load(inner_lower);
+    box outer = box_load(outer_record), inner = box_load(inner_record);
     for (int axis = 0; axis < 3; axis++) {
         if (!(outer.lower[axis] <= inner.lower[axis] && inner.upper[axis] <= outer.upper[axis])) {
             return false;
@@ -174,7 +174,7 @@ static mt_status check_leaf(mt_context *context, const mt_aabb_tree *tree, mt_in
         return mt_fail(context, MT_ERROR_INTERNAL, "leaf %u reaches past the primitives", number);
     }
     for (mt_index i = node->first; i < node->first + node->count; i++) {
-        if (seen[i]++ || !box_contains(node->lower, tree->primitives[i].lower)) {
+        if (seen[i]++ || !box_contains(node, &tree->primitives[i])) {
             return mt_fail(context, MT_ERROR_INTERNAL, "primitive place %u is in two leaves or out of its box", i);
         }
     }
@@ -188,7 +188,7 @@ static mt_status check_inner(mt_context *context, const mt_aabb_tree *tree, mt_i
         return mt_fail(context, MT_ERROR_INTERNAL, "node %u has children at %u", number, node->first);
     }
     for (mt_index child = node->first; child < node->first + 2; child++) {
-        if (!box_contains(node->lower, tree->nodes[child].lower)) {
+        if (!box_contains(node, &tree->nodes[child])) {
             return mt_fail(context, MT_ERROR_INTERNAL, "node %u reaches out of its parent %u", child, number);
         }
     }

@@ -13,11 +13,11 @@ typedef struct box {
     float4 lower, upper;
 } box;
 
-/* The box of a node or a primitive: both begin with it. */
-static inline box box_load(const float lower[3])
+/* The box of a node or a primitive, whose records are a box throughout. */
+static inline box box_load(const void *record)
 {
     box b;
-    memcpy(&b, lower, sizeof b);
+    memcpy(&b, record, sizeof b);
     return b;
 }
 

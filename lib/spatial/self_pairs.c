@@ -42,22 +42,22 @@ static void flush(pair_batch *batch)
 static void add_row(pair_batch *batch, const mt_aabb_primitive *one, mt_index begin, mt_index end)
 {
     const mt_aabb_primitive *primitives = batch->search->tree->primitives;
-    box own = box_load(one->lower);
+    box own = box_load(one);
     if (batch->count + MT_AABB_LEAF_SIZE > BATCH_SIZE) {
         flush(batch);
     }
     for (mt_index j = begin; j < end; j++) {
         batch->pairs[batch->count] = (mt_primitive_pair){one->number, primitives[j].number};
-        batch->count += box_overlaps(own, box_load(primitives[j].lower)); /* no branch: half of them do */
+        batch->count += box_overlaps(own, box_load(&primitives[j])); /* no branch: half of them do */
     }
 }
 
 static void add_leaf_pairs(pair_batch *batch, const mt_aabb_node *a, const mt_aabb_node *b)
 {
     const mt_aabb_primitive *primitives = batch->search->tree->primitives;
-    box other = box_load(b->lower);
+    box other = box_load(b);
     for (mt_index i = a->first; i < a->first + a->count; i++) {
-        if (box_overlaps(box_load(primitives[i].lower), other)) {
+        if (box_overlaps(box_load(&primitives[i]), other)) {
             add_row(batch, &primitives[i], a == b ? i + 1 : b->first, b->first + b->count);
         }
     }
@@ -65,14 +65,14 @@ static void add_leaf_pairs(pair_batch *batch, const mt_aabb_node *a, const mt_aa
 
 static float half_area(const mt_aabb_node *node)
 {
-    box b = box_load(node->lower);
+    box b = box_load(node);
     float4 side = b.upper - b.lower;
     return side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
 }
 
 static bool nodes_overlap(const mt_aabb_node *a, const mt_aabb_node *b)
 {
-    return box_overlaps(box_load(a->lower), box_load(b->lower));
+    return box_overlaps(box_load(a), box_load(b));
 }
 
 /* Opens a pair into at most three, those that can still hold overlapping primitives; returns how many. Not for two

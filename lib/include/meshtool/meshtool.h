@@ -14,7 +14,9 @@
 #include <meshtool/attribute.h>   /* normals, UVs, colours */
 #include <meshtool/generate.h>    /* cube, torus, teapot ... */
 #include <meshtool/mesh.h>        /* vertices, polygons, labels, creases */
+#include <meshtool/transform.h>   /* scale, rotate, move */
 #include <meshtool/triangulate.h> /* n-gons to triangles, in one way */
+#include <meshtool/weld.h>        /* points at one place become one */
 
 /* Connectivity */
 #include <meshtool/edge_pairs.h> /* which sides share an edge */

@@ -2,7 +2,7 @@
 #ifndef MESHTOOL_WELD_H
 #define MESHTOOL_WELD_H
 
-#include <meshtool/context.h>
+#include <meshtool/mesh.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,6 +20,13 @@ extern "C" {
  * 20 for the same. MT_ERROR_OUT_OF_MEMORY. */
 mt_status mt_weld_exact(mt_context *context, const void *positions, mt_type type, mt_index point_count, void *distinct,
                         mt_index *numbers, mt_index *distinct_count);
+
+/* Makes the vertices of a mesh that are at the same place, as above, one; they are numbered in the order of their
+ * first. Nothing else changes: no face is dropped, though some may now name a vertex twice or be given twice. A vertex
+ * attribute keeps the first's value where the values at each place are bit-equal, and else moves to the corners,
+ * indexed, so that no face loses one. *removed (may be NULL) receives how many vertices went. On failure the mesh is
+ * whole, but attributes may have moved. O(size) time. */
+mt_status mt_mesh_weld(mt_context *context, mt_mesh *mesh, mt_index *removed);
 
 #ifdef __cplusplus
 }

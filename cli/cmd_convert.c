@@ -1,0 +1,189 @@
+/* meshtool convert: from one format to another, moved, turned, scaled, triangulated on the way. */
+#include "files.h"
+#include "message.h"
+#include "quantity.h"
+
+#include <meshtool/transform.h>
+#include <meshtool/triangulate.h>
+#include <meshtool/weld.h>
+
+#include <string.h>
+
+typedef struct convert_settings {
+    cli_common common;
+    mt_transform transform; /* all that were given, in their order */
+    bool weld, triangulate;
+} convert_settings;
+
+static void append(mt_transform *transform, mt_transform next)
+{
+    *transform = mt_transform_then(transform, &next);
+}
+
+static bool parse_scale(const cli_option *option, const char *text, void *value)
+{
+    double factor = 0;
+    if (!cli_parse_number(option, text, &factor) || factor <= 0) {
+        return false;
+    }
+    append(value, mt_transform_scaling(factor));
+    return true;
+}
+
+static bool parse_translate(const cli_option *option, const char *text, void *value)
+{
+    (void)option;
+    double offset[3];
+    if (!cli_scan_numbers(text, 3, offset)) {
+        return false;
+    }
+    append(value, mt_transform_translation(mt_vec3_make(offset[0], offset[1], offset[2])));
+    return true;
+}
+
+/* "z,90" or "1,1,0,45" */
+static bool parse_rotate(const cli_option *option, const char *text, void *value)
+{
+    (void)option;
+    double axis[4] = {0, 0, 0, 0}; /* and the angle */
+    if (*text >= 'x' && *text <= 'z' && text[1] == ',') {
+        axis[*text - 'x'] = 1;
+        if (!cli_scan_numbers(text + 2, 1, &axis[3])) {
+            return false;
+        }
+    } else if (!cli_scan_numbers(text, 4, axis) || (axis[0] == 0 && axis[1] == 0 && axis[2] == 0)) {
+        return false;
+    }
+    append(value, mt_transform_rotation(mt_vec3_make(axis[0], axis[1], axis[2]), axis[3]));
+    return true;
+}
+
+static const cli_option options[] = {
+    {.name = "scale",
+     .offset = offsetof(convert_settings, transform),
+     .parse = parse_scale,
+     .argument = "F",
+     .expects = "a number above 0",
+     .minimum = 0,
+     .maximum = 1e300,
+     .help = "multiply positions by F"},
+    {.name = "rotate",
+     .offset = offsetof(convert_settings, transform),
+     .parse = parse_rotate,
+     .argument = "AXIS,DEG",
+     .expects = "an axis (x, y, z or three numbers) and degrees, such as z,90 or 1,1,0,45",
+     .help = "turn about x, y, z or an axis X,Y,Z, counter-clockwise as it points at you"},
+    {.name = "translate",
+     .offset = offsetof(convert_settings, transform),
+     .parse = parse_translate,
+     .argument = "X,Y,Z",
+     .expects = "three numbers, such as 0,-1.5,2",
+     .help = "move by X,Y,Z"},
+    {.name = "weld",
+     .offset = offsetof(convert_settings, weld),
+     .help = "join vertices whose positions are equal bit for bit"},
+    {.name = "triangulate",
+     .offset = offsetof(convert_settings, triangulate),
+     .help = "split faces of more than three sides into triangles"},
+    {0},
+};
+
+static cli_exit triangulate(const cli_job *job, mt_mesh **mesh)
+{
+    mt_mesh *triangles = NULL;
+    if (mt_mesh_triangulate(job->context, *mesh, &triangles) != MT_OK) {
+        return cli_report_failure(job, job->operands[0]);
+    }
+    mt_mesh_destroy(job->context, *mesh);
+    *mesh = triangles;
+    return CLI_EXIT_DONE;
+}
+
+static cli_exit weld(const cli_job *job, mt_mesh *mesh)
+{
+    mt_index removed = 0;
+    if (mt_mesh_weld(job->context, mesh, &removed) != MT_OK) {
+        return cli_report_failure(job, job->operands[0]);
+    }
+    cli_say(job, "%s: welding joined %s to others", job->operands[0], cli_counted(removed, "vertex").text);
+    return CLI_EXIT_DONE;
+}
+
+static cli_exit change(const cli_job *job, mt_mesh **mesh)
+{
+    const convert_settings *settings = job->settings;
+    cli_exit code = settings->weld ? weld(job, *mesh) : CLI_EXIT_DONE;
+    if (code != CLI_EXIT_DONE) {
+        return code;
+    }
+    mt_transform identity = mt_transform_identity();
+    if (memcmp(&settings->transform, &identity, sizeof identity) != 0 &&
+        mt_mesh_transform(job->context, *mesh, &settings->transform) != MT_OK) {
+        return cli_report_failure(job, job->operands[0]);
+    }
+    return settings->triangulate ? triangulate(job, mesh) : CLI_EXIT_DONE;
+}
+
+static cli_exit write(const cli_job *job, const mt_mesh *mesh, const char *path)
+{
+    json_t *lost = NULL;
+    cli_exit code = cli_write_mesh(job, mesh, path, &lost);
+    if (code == CLI_EXIT_DONE && job->common->json) {
+        json_t *object = cli_json_object();
+        cli_json_set(object, "lost", json_incref(lost));
+        cli_json_print_line(object);
+        json_decref(object);
+    }
+    json_decref(lost);
+    return code;
+}
+
+static cli_exit run(const cli_job *job)
+{
+    const char *path = job->common->output;
+    if (job->operand_count == 2 && path) {
+        return cli_wrong_usage(job->command, "where to write is given twice, as %s and as -o %s", job->operands[1],
+                               path);
+    }
+    cli_job input = *job;
+    input.operand_count = 1;
+    path = job->operand_count == 2 ? job->operands[1] : path;
+    const mt_mesh_format *read = NULL, *written = NULL;
+    cli_exit code = cli_check_inputs(&input);
+    if (code == CLI_EXIT_DONE) {
+        code = cli_check_mesh_output(job, path, &written);
+    }
+    mt_mesh *mesh = NULL;
+    if (code == CLI_EXIT_DONE) {
+        code = cli_read_mesh(job, job->operands[0], &mesh, &read);
+    }
+    if (code == CLI_EXIT_DONE) {
+        code = change(job, &mesh);
+    }
+    if (code == CLI_EXIT_DONE) {
+        code = write(job, mesh, path);
+    }
+    mt_mesh_destroy(job->context, mesh);
+    return code;
+}
+
+static const convert_settings defaults = {.transform = {.linear = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+
+const cli_command cli_convert_command = {
+    .name = "convert",
+    .usage = "IN OUT",
+    .summary = "Write a mesh in another format, scaled, turned or moved",
+    .description = "The format goes by OUT's extension, or by --to. What the format cannot hold is said; --strict-loss "
+                   "makes it a failure. Scaling, turning and moving happen in the order given, and may be repeated.",
+    .examples = "  meshtool convert part.stl part.ply\n"
+                "  meshtool convert cow.obj cow.stl --rotate x,90 --scale 0.001\n"
+                "  meshtool convert - - --from obj --to off < cow.obj > cow.off\n",
+    .options = options,
+    .groups = CLI_GROUP_OUTPUT | CLI_GROUP_WRITE | CLI_GROUP_MESH | CLI_GROUP_READ | CLI_GROUP_PRECISION |
+              CLI_GROUP_WORK | CLI_GROUP_EVERY,
+    .settings_size = sizeof(convert_settings),
+    .defaults = &defaults,
+    .operand_minimum = 1,
+    .operand_maximum = 2,
+    .run = run,
+};

@@ -1,0 +1,199 @@
+#include "files.h"
+
+#include "message.h"
+#include "progress.h"
+#include "quantity.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+bool cli_is_standard_output(const char *path)
+{
+    static const char *const names[] = {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (strcmp(path, names[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+const char *cli_extension(const char *text)
+{
+    return text && *text == '.' ? text + 1 : text;
+}
+
+cli_exit cli_check_inputs(const cli_job *job)
+{
+    const char *from = cli_extension(job->common->from);
+    if (from) {
+        const mt_mesh_format *format = mt_mesh_format_by_extension(from);
+        if (!format || !format->read) {
+            return cli_wrong_usage(job->command, "--from %s: no format that is read has this extension", from);
+        }
+    }
+    size_t count = 0;
+    for (size_t i = 0; i < job->operand_count; i++) {
+        count += strcmp(job->operands[i], "-") == 0;
+    }
+    return count < 2 ? CLI_EXIT_DONE
+                     : cli_wrong_usage(job->command, "standard input (-) can be read once only, and is named twice");
+}
+
+static cli_exit refuse_output(const char *path, const char *reason)
+{
+    fprintf(stderr, "meshtool: %s: %s\n", path, reason);
+    return CLI_EXIT_IO;
+}
+
+/* What would fail after a long run is better said before it. */
+static cli_exit check_place(const cli_job *job, const char *path)
+{
+    struct stat status;
+    if (stat(path, &status) == 0) {
+        if (S_ISDIR(status.st_mode)) {
+            return refuse_output(path, "is a folder; name a file in it");
+        }
+        bool is_kept = job->common->no_clobber && S_ISREG(status.st_mode);
+        return is_kept ? refuse_output(path, "exists, and --no-clobber was given") : CLI_EXIT_DONE;
+    }
+    const char *slash = strrchr(path, '/');
+    char folder[4096] = ".";
+    size_t length = slash ? (size_t)(slash - path) + 1 : 0;
+    if (length >= sizeof folder) {
+        return CLI_EXIT_DONE; /* opening it will say */
+    }
+    if (slash) {
+        memcpy(folder, path, length);
+        folder[length] = '\0';
+    }
+    if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode)) {
+        return refuse_output(path, "its folder does not exist");
+    }
+    return access(folder, W_OK) == 0 ? CLI_EXIT_DONE : refuse_output(path, strerror(errno));
+}
+
+cli_exit cli_check_output(const cli_job *job, const char *path)
+{
+    if (!path) {
+        return cli_wrong_usage(job->command, "where to write is missing; give -o OUT");
+    }
+    if (cli_is_standard_output(path)) {
+        return job->common->json ? cli_wrong_usage(job->command, "--json and the data cannot both go to standard "
+                                                                 "output; give -o FILE")
+                                 : CLI_EXIT_DONE;
+    }
+    return check_place(job, path);
+}
+
+static mt_mesh_write_options mesh_write_options(const cli_job *job)
+{
+    mt_mesh_write_options options = {
+        .format = cli_extension(job->common->to),
+        .encoding = (mt_encoding)job->common->encoding,
+        .strict_loss = job->common->strict_loss,
+        .no_clobber = job->common->no_clobber,
+    };
+    return options;
+}
+
+static bool has_encoding(const mt_mesh_format *format, mt_encoding encoding)
+{
+    switch (encoding) {
+    case MT_ENCODING_ASCII:
+        return format->has_ascii;
+    case MT_ENCODING_BINARY:
+        return format->has_binary;
+    case MT_ENCODING_BINARY_BIG:
+        return format->has_binary_big;
+    default:
+        return true;
+    }
+}
+
+cli_exit cli_check_mesh_output(const cli_job *job, const char *path, const mt_mesh_format **format)
+{
+    cli_exit code = cli_check_output(job, path);
+    if (code != CLI_EXIT_DONE) {
+        return code;
+    }
+    mt_mesh_write_options options = mesh_write_options(job);
+    *format = mt_mesh_format_for_output(job->context, path, &options);
+    if (!*format) {
+        return cli_report_failure(job, path);
+    }
+    if (!has_encoding(*format, options.encoding)) {
+        return cli_wrong_usage(job->command, "%s files do not have the encoding that --encoding asks for",
+                               (*format)->name);
+    }
+    return CLI_EXIT_DONE;
+}
+
+cli_exit cli_check_image_output(const cli_job *job, const char *path, const mt_image_format **format)
+{
+    cli_exit code = cli_check_output(job, path);
+    if (code != CLI_EXIT_DONE) {
+        return code;
+    }
+    mt_image_write_options options = {.format = cli_extension(job->common->to)};
+    *format = mt_image_format_for_output(job->context, path, &options);
+    return *format ? CLI_EXIT_DONE : cli_report_failure(job, path);
+}
+
+cli_exit cli_read_mesh(const cli_job *job, const char *path, mt_mesh **out, const mt_mesh_format **format)
+{
+    mt_mesh_read_options options = {
+        .format = cli_extension(job->common->from),
+        .precision = (mt_precision)job->common->precision,
+    };
+    if (mt_mesh_read_file(job->context, path, &options, out, format) != MT_OK) {
+        return cli_report_failure(job, path);
+    }
+    cli_say(job, "%s: read %s with %s and %s", path, (*format)->title, cli_counted((*out)->vertex_count, "vertex").text,
+            cli_counted((*out)->face_count, "face").text);
+    return CLI_EXIT_DONE;
+}
+
+static void warn_of_loss(const cli_job *job, const char *path, const mt_loss *loss)
+{
+    if (loss->count == 0 || job->common->quiet) {
+        return;
+    }
+    cli_progress_clear();
+    fprintf(stderr, "meshtool: warning: %s: its format cannot hold ", path);
+    for (size_t i = 0; i < loss->count; i++) {
+        fprintf(stderr, "%s%s", i == 0 ? "" : i + 1 < loss->count ? ", " : " and ", loss->items[i]);
+    }
+    fputs(loss->count == 1 ? "; this is lost\n" : "; these are lost\n", stderr);
+}
+
+cli_exit cli_write_mesh(const cli_job *job, const mt_mesh *mesh, const char *path, json_t **lost)
+{
+    mt_mesh_write_options options = mesh_write_options(job);
+    mt_loss loss = {0};
+    if (mt_mesh_write_file(job->context, mesh, path, &options, &loss) != MT_OK) {
+        return cli_report_failure(job, path);
+    }
+    warn_of_loss(job, path, &loss);
+    cli_say(job, "%s: wrote %s and %s", path, cli_counted(mesh->vertex_count, "vertex").text,
+            cli_counted(mesh->face_count, "face").text);
+    if (lost) {
+        *lost = cli_json_array();
+        for (size_t i = 0; i < loss.count; i++) {
+            cli_json_append(*lost, cli_json_text(loss.items[i]));
+        }
+    }
+    return CLI_EXIT_DONE;
+}
+
+cli_exit cli_write_image(const cli_job *job, const mt_image *image, const char *path)
+{
+    mt_image_write_options options = {.format = cli_extension(job->common->to), .no_clobber = job->common->no_clobber};
+    if (mt_image_write_file(job->context, image, path, &options) != MT_OK) {
+        return cli_report_failure(job, path);
+    }
+    cli_say(job, "%s: wrote %u x %u pixels", path, image->width, image->height);
+    return CLI_EXIT_DONE;
+}

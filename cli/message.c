@@ -1,0 +1,99 @@
+#include "message.h"
+
+#include "progress.h"
+#include "quantity.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdarg.h>
+#include <string.h>
+#include <unistd.h>
+
+cli_exit cli_wrong_usage(const cli_command *command, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fprintf(stderr, "meshtool: %s: ", command->name);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fprintf(stderr, "\nTry: meshtool %s --help\n", command->name);
+    return CLI_EXIT_USAGE;
+}
+
+/* Whether standard output is a pipe whose reader has gone. */
+static bool output_has_no_reader(void)
+{
+    struct pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    return poll(&output, 1, 0) == 1 && (output.revents & POLLERR);
+}
+
+cli_exit cli_report_failure(const cli_job *job, const char *file)
+{
+    const mt_error *error = mt_context_error(job->context);
+    cli_progress_clear();
+    if (error->status == MT_ERROR_IO && output_has_no_reader()) {
+        return CLI_EXIT_IO;
+    }
+    if (error->status == MT_ERROR_CANCELLED) {
+        fputs("meshtool: interrupted; nothing was written\n", stderr);
+    } else if (file && !error->place.file && !strstr(error->message, file)) {
+        fprintf(stderr, "meshtool: %s: %s\n", file, error->message);
+    } else {
+        fprintf(stderr, "meshtool: %s\n", error->message);
+    }
+    return cli_exit_of(error->status);
+}
+
+void cli_say(const cli_job *job, const char *format, ...)
+{
+    if (!job->common->verbose) {
+        return;
+    }
+    va_list arguments;
+    va_start(arguments, format);
+    cli_progress_clear();
+    fputs("meshtool: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    va_end(arguments);
+}
+
+void cli_print_warning(void *user, const char *sentence)
+{
+    const cli_common *common = user;
+    if (!common->quiet) {
+        cli_progress_clear();
+        fprintf(stderr, "meshtool: warning: %s\n", sentence);
+    }
+}
+
+void cli_print_parts(const mt_context *context)
+{
+    size_t count = 0;
+    const mt_part *parts = mt_context_parts(context, &count);
+    cli_progress_clear();
+    for (size_t i = 0; i < count; i++) {
+        const mt_part *part = &parts[i];
+        if (part->built) {
+            fprintf(stderr, "built    %-28s %10.2f ms %12s", part->name, part->milliseconds,
+                    cli_bytes(part->bytes).text);
+        } else {
+            fprintf(stderr, "skipped  %-28s %10s    %12s", part->name, "", "");
+        }
+        fprintf(stderr, part->reason ? "  %s\n" : "\n", part->reason);
+    }
+    fprintf(stderr, "peak     %-28s %13s %12s\n", "memory held at once", "",
+            cli_bytes(mt_context_peak_bytes(context)).text);
+}
+
+cli_exit cli_finish_output(cli_exit code)
+{
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout)) {
+        return code;
+    }
+    if (errno != EPIPE) {
+        fprintf(stderr, "meshtool: standard output: %s\n", errno ? strerror(errno) : "writing failed");
+    }
+    return CLI_EXIT_IO;
+}
