@@ -49,18 +49,16 @@ static mt_status begin_state(mt_context *context, const mt_edge_pairs *pairs, un
     const mt_mesh *mesh = state->mesh;
     state->topologies =
         mt_allocate_array_zeroed(context, (uint64_t)mesh->attribute_count + 1, sizeof *state->topologies);
-    state->creases = mt_allocate_array(context, mesh->crease_count, sizeof *state->creases);
-    if (!state->topologies || !state->creases) {
+    if (!state->topologies) {
         return mt_context_error(context)->status;
-    }
-    if (mesh->crease_count) {
-        memcpy(state->creases, mesh->creases, mesh->crease_count * sizeof *state->creases);
-        state->crease_count = mesh->crease_count;
     }
     mt_status status = mt_subdivide_topology_of_mesh(context, mesh, pairs, &state->topologies[0]);
     if (status == MT_OK) {
         state->topology_count = 1;
         status = mt_subdivide_check_rings(context, &state->topologies[0]);
+    }
+    if (status == MT_OK) {
+        status = mt_subdivide_creases_create(context, state);
     }
     if (status == MT_OK) {
         status = mt_subdivide_fields_create(context, state);
@@ -297,10 +295,7 @@ mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdiv
         return status;
     }
     mt_edge_pairs *pairs;
-    int part =
-        mt_part_begin(context, "edge pairs", "level 1 needs every corner's twin; later levels have closed forms");
     status = mt_edge_pairs_create(context, mesh, &pairs);
-    mt_part_end(context, part);
     if (status == MT_OK) {
         status = subdivide_paired(context, mesh, pairs, level_count, out);
         mt_edge_pairs_destroy(context, pairs);

@@ -2,14 +2,14 @@
  * Cost: O(corners); 4 bytes a vertex and 1 to 12 a corner, none of it hashed or sorted. */
 #include "lib/algorithms/subdivide_topology.h"
 
-/* Corners of a counting block; a multiple of 4, so that a quad never straddles two. */
-#define RANK_GRAIN 16384
+/* Corners of a counting block; a multiple of 12, so that no triangle or quad straddles two. */
+#define RANK_GRAIN 12288
 
 typedef struct rank_job {
     const mt_index *twins;
     mt_index *ranks;
     mt_index *block_counts;
-    bool per_face;
+    unsigned face_size;
 } rank_job;
 
 static void count_first_corners(void *user, uint64_t begin, uint64_t end)
@@ -25,14 +25,14 @@ static void count_first_corners(void *user, uint64_t begin, uint64_t end)
 static void write_ranks(void *user, uint64_t begin, uint64_t end)
 {
     const rank_job *job = user;
+    uint64_t step = job->face_size ? job->face_size : 1;
     mt_index rank = job->block_counts[begin / RANK_GRAIN];
-    for (uint64_t corner = begin; corner < end; corner++) {
-        if (!job->per_face) {
-            job->ranks[corner] = rank;
-        } else if ((corner & 3) == 0) {
-            job->ranks[corner >> 2] = rank;
+    mt_index *ranks = job->ranks + begin / step;
+    for (uint64_t first = begin; first < end; first += step) {
+        *ranks++ = rank;
+        for (uint64_t corner = first; corner < first + step; corner++) {
+            rank += job->twins[corner] >= corner;
         }
-        rank += job->twins[corner] >= corner;
     }
 }
 
@@ -49,9 +49,9 @@ static mt_index sum_blocks(mt_index *counts, uint64_t block_count)
 
 static mt_status rank_edges(mt_context *context, mt_subdivide_topology *topology)
 {
-    bool per_face = !topology->face_offsets;
+    bool per_face = topology->face_size != 0;
     uint64_t block_count = (uint64_t)topology->corner_count / RANK_GRAIN + 1;
-    rank_job job = {.twins = topology->twins, .per_face = per_face};
+    rank_job job = {.twins = topology->twins, .face_size = topology->face_size};
     topology->owned[0] = job.ranks =
         mt_allocate_array(context, per_face ? topology->face_count : topology->corner_count, sizeof(mt_index));
     job.block_counts = mt_allocate_array_zeroed(context, block_count, sizeof(mt_index));
@@ -90,7 +90,8 @@ static void write_corner_faces(void *user, uint64_t begin, uint64_t end)
 
 static mt_status describe_faces(mt_context *context, const mt_mesh *mesh, mt_subdivide_topology *topology)
 {
-    if (!mesh->face_offsets && mesh->face_size == 4) {
+    if (!mesh->face_offsets && (mesh->face_size == 3 || mesh->face_size == 4)) {
+        topology->face_size = mesh->face_size;
         return MT_OK;
     }
     face_job job = {.mesh = mesh};
@@ -119,6 +120,7 @@ static mt_status find_vertex_corners(mt_context *context, mt_subdivide_topology 
     }
     topology->owned[3] = corners;
     topology->vertex_corners = corners;
+    topology->vertex_corner_count = topology->vertex_count;
     for (mt_index vertex = 0; vertex < topology->vertex_count; vertex++) {
         corners[vertex] = MT_NONE;
     }
@@ -167,13 +169,13 @@ typedef struct value_job {
     mt_index *corner_vertices; /* NULL when the indices serve, every corner having a value */
 } value_job;
 
-MT_SUBDIVIDE_INLINE void link_values(const value_job *job, uint64_t begin, uint64_t end, bool quads)
+MT_SUBDIVIDE_INLINE void link_values(const value_job *job, uint64_t begin, uint64_t end, unsigned sides)
 {
     const mt_subdivide_topology *base = job->base;
     for (mt_index corner = (mt_index)begin; corner < end; corner++) {
         mt_index twin = base->twins[corner];
-        job->twins[corner] = value_twin(job->indices, corner, mt_subdivide_next(base, corner, quads), twin,
-                                        mt_subdivide_next(base, twin, quads));
+        job->twins[corner] = value_twin(job->indices, corner, mt_subdivide_next(base, corner, sides), twin,
+                                        mt_subdivide_next(base, twin, sides));
         if (job->corner_vertices) {
             job->corner_vertices[corner] = job->indices[corner] == MT_NONE ? 0 : job->indices[corner];
         }
@@ -183,10 +185,16 @@ MT_SUBDIVIDE_INLINE void link_values(const value_job *job, uint64_t begin, uint6
 static void link_values_of_corners(void *user, uint64_t begin, uint64_t end)
 {
     const value_job *job = user;
-    if (job->base->face_offsets) {
-        link_values(job, begin, end, false);
-    } else {
-        link_values(job, begin, end, true);
+    switch (job->base->face_size) {
+    case 3:
+        link_values(job, begin, end, 3);
+        break;
+    case 4:
+        link_values(job, begin, end, 4);
+        break;
+    default:
+        link_values(job, begin, end, 0);
+        break;
     }
 }
 
@@ -206,6 +214,7 @@ mt_status mt_subdivide_topology_of_values(mt_context *context, const mt_subdivid
     *topology = (mt_subdivide_topology){.vertex_count = attribute->value_count,
                                         .face_count = base->face_count,
                                         .corner_count = base->corner_count,
+                                        .face_size = base->face_size,
                                         .face_offsets = base->face_offsets,
                                         .corner_faces = base->corner_faces};
     value_job job = {.base = base, .indices = attribute->indices};

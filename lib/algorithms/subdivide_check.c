@@ -12,15 +12,16 @@
 
 typedef struct face_scan {
     const mt_mesh *mesh;
+    mt_index gap;            /* corners nearer than this are known to differ */
     mt_index *first_repeats; /* per block the first face that names a vertex twice, MT_NONE: none */
     bool *has_large;         /* per block whether a face was too large to compare pairwise */
 } face_scan;
 
 /* The corner of the first vertex that the face names again, MT_NONE when there is none. */
-static mt_index find_repeat(const mt_mesh *mesh, mt_index begin, mt_index end)
+static mt_index find_repeat(const mt_mesh *mesh, mt_index begin, mt_index end, mt_index gap)
 {
-    for (mt_index i = begin; i + 1 < end; i++) {
-        for (mt_index j = i + 1; j < end; j++) {
+    for (mt_index i = begin; i + gap < end; i++) {
+        for (mt_index j = i + gap; j < end; j++) {
             if (mesh->corner_vertices[i] == mesh->corner_vertices[j]) {
                 return i;
             }
@@ -38,7 +39,7 @@ static void scan_faces(void *user, uint64_t begin, uint64_t end)
         mt_index first = mt_mesh_face_begin(scan->mesh, face), last = mt_mesh_face_end(scan->mesh, face);
         if (last - first > PAIRWISE_SIDES) {
             has_large = true;
-        } else if (find_repeat(scan->mesh, first, last) != MT_NONE) {
+        } else if (find_repeat(scan->mesh, first, last, scan->gap) != MT_NONE) {
             first_repeat = face;
         }
     }
@@ -87,10 +88,14 @@ static mt_status find_repeating_face(mt_context *context, face_scan *scan, mt_in
     return MT_OK;
 }
 
-static mt_status check_faces(mt_context *context, const mt_mesh *mesh)
+static mt_status check_faces(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
 {
+    mt_index gap = pairs->degenerate_side_count ? 1 : 2;
+    if (gap == 2 && !mesh->face_offsets && mesh->face_size == 3) {
+        return MT_OK;
+    }
     uint64_t block_count = (uint64_t)mesh->face_count / MT_SUBDIVIDE_GRAIN + 1;
-    face_scan scan = {.mesh = mesh};
+    face_scan scan = {.mesh = mesh, .gap = gap};
     scan.first_repeats = mt_allocate_array(context, block_count, sizeof(mt_index));
     scan.has_large = mt_allocate_array(context, block_count, sizeof(bool));
     mt_index face = MT_NONE;
@@ -101,7 +106,7 @@ static mt_status check_faces(mt_context *context, const mt_mesh *mesh)
     if (status != MT_OK || face == MT_NONE) {
         return status;
     }
-    mt_index corner = find_repeat(mesh, mt_mesh_face_begin(mesh, face), mt_mesh_face_end(mesh, face));
+    mt_index corner = find_repeat(mesh, mt_mesh_face_begin(mesh, face), mt_mesh_face_end(mesh, face), 1);
     return mt_fail(context, MT_ERROR_NOT_MANIFOLD,
                    "face %u names vertex %u more than once; " NEEDS
                    ": `meshtool repair --drop-degenerate` can drop such faces",
@@ -165,7 +170,7 @@ static mt_status refuse_misoriented_edge(mt_context *context, const mt_mesh *mes
 
 mt_status mt_subdivide_check_edges(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
 {
-    mt_status status = check_faces(context, mesh);
+    mt_status status = check_faces(context, mesh, pairs);
     if (status != MT_OK) {
         return status;
     }
@@ -180,14 +185,14 @@ typedef struct ring_scan {
     mt_index *block_counts; /* corners that the rings of a block's vertices reach */
 } ring_scan;
 
-MT_SUBDIVIDE_INLINE mt_index ring_length(const mt_subdivide_topology *topology, mt_index vertex, bool quads)
+MT_SUBDIVIDE_INLINE mt_index ring_length(const mt_subdivide_topology *topology, mt_index vertex, unsigned sides)
 {
-    mt_index start = topology->vertex_corners[vertex];
+    mt_index start = mt_subdivide_vertex_corner(topology, vertex);
     mt_index count = 0;
     mt_index corner = start;
     while (corner != MT_NONE) {
         count++;
-        mt_index previous = mt_subdivide_previous(topology, corner, quads);
+        mt_index previous = mt_subdivide_previous(topology, corner, sides);
         corner = topology->twins[previous];
         if (corner == previous || corner == start) {
             break;
@@ -196,36 +201,30 @@ MT_SUBDIVIDE_INLINE mt_index ring_length(const mt_subdivide_topology *topology, 
     return count;
 }
 
-static void count_polygon_rings(void *user, uint64_t begin, uint64_t end)
-{
-    const ring_scan *scan = user;
-    mt_index count = 0;
-    for (uint64_t vertex = begin; vertex < end; vertex++) {
-        count += ring_length(scan->topology, (mt_index)vertex, false);
+#define RING_LOOP(name, sides)                                                                                         \
+    static void name(void *user, uint64_t begin, uint64_t end)                                                         \
+    {                                                                                                                  \
+        const ring_scan *scan = user;                                                                                  \
+        mt_index count = 0;                                                                                            \
+        for (uint64_t vertex = begin; vertex < end; vertex++) {                                                        \
+            count += ring_length(scan->topology, (mt_index)vertex, sides);                                             \
+        }                                                                                                              \
+        scan->block_counts[begin / MT_SUBDIVIDE_GRAIN] = count;                                                        \
     }
-    scan->block_counts[begin / MT_SUBDIVIDE_GRAIN] = count;
-}
-
-static void count_quad_rings(void *user, uint64_t begin, uint64_t end)
-{
-    const ring_scan *scan = user;
-    mt_index count = 0;
-    for (uint64_t vertex = begin; vertex < end; vertex++) {
-        count += ring_length(scan->topology, (mt_index)vertex, true);
-    }
-    scan->block_counts[begin / MT_SUBDIVIDE_GRAIN] = count;
-}
+RING_LOOP(count_polygon_rings, 0)
+RING_LOOP(count_triangle_rings, 3)
+RING_LOOP(count_quad_rings, 4)
 
 /* Names the first vertex whose ring misses some of its corners, and the first face of the ring and outside. */
 static mt_status refuse_vertex(mt_context *context, const mt_subdivide_topology *topology)
 {
-    bool quads = !topology->face_offsets;
+    unsigned sides = topology->face_size;
     mt_index *missing = mt_allocate_array(context, topology->vertex_count, sizeof *missing);
     if (!missing) {
         return mt_context_error(context)->status;
     }
     for (mt_index vertex = 0; vertex < topology->vertex_count; vertex++) {
-        missing[vertex] = 0u - ring_length(topology, vertex, quads);
+        missing[vertex] = 0u - ring_length(topology, vertex, sides);
     }
     for (mt_index corner = 0; corner < topology->corner_count; corner++) {
         missing[topology->corner_vertices[corner]]++;
@@ -238,19 +237,20 @@ static mt_status refuse_vertex(mt_context *context, const mt_subdivide_topology 
     return mt_fail(context, MT_ERROR_NOT_MANIFOLD,
                    "several fans of faces meet in vertex %u alone (one of them has face %u); " NEEDS
                    ": `meshtool repair --split` can separate them",
-                   vertex, mt_subdivide_face(topology, topology->vertex_corners[vertex], quads));
+                   vertex, mt_subdivide_face(topology, mt_subdivide_vertex_corner(topology, vertex), sides));
 }
 
 mt_status mt_subdivide_check_rings(mt_context *context, const mt_subdivide_topology *topology)
 {
+    static const mt_parallel_body loops[] = {
+        [0] = count_polygon_rings, [3] = count_triangle_rings, [4] = count_quad_rings};
     uint64_t block_count = (uint64_t)topology->vertex_count / MT_SUBDIVIDE_GRAIN + 1;
     ring_scan scan = {.topology = topology};
     scan.block_counts = mt_allocate_array_zeroed(context, block_count, sizeof(mt_index));
     if (!scan.block_counts) {
         return mt_context_error(context)->status;
     }
-    mt_parallel_for(context, topology->vertex_count, MT_SUBDIVIDE_GRAIN,
-                    topology->face_offsets ? count_polygon_rings : count_quad_rings, &scan);
+    mt_parallel_for(context, topology->vertex_count, MT_SUBDIVIDE_GRAIN, loops[topology->face_size], &scan);
     mt_index reached = 0;
     for (uint64_t block = 0; block < block_count; block++) {
         reached += scan.block_counts[block];

@@ -14,6 +14,12 @@ typedef struct mt_subdivide_field {
     void *owned; /* the values when they are not the mesh's or the result's */
 } mt_subdivide_field;
 
+/* A crease of the level in work, and a side on it: MT_NONE where no face has that edge. */
+typedef struct mt_subdivide_crease {
+    mt_edge_value edge;
+    mt_index side;
+} mt_subdivide_crease;
+
 /* What one subdivision holds from level to level. */
 typedef struct mt_subdivide_state {
     const mt_mesh *mesh;
@@ -22,7 +28,7 @@ typedef struct mt_subdivide_state {
     mt_index field_count;
     mt_subdivide_field *fields; /* 0: the positions */
     mt_index crease_count;
-    mt_edge_value *creases;
+    mt_subdivide_crease *creases;
 } mt_subdivide_state;
 
 /* Makes the topologies of the corner attributes and all fields; topologies[0] must stand. */

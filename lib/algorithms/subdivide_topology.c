@@ -7,43 +7,41 @@
  * name a vertex twice), and faces are runs of corners, so both halves of an edge begin in the children of the face of
  * its first corner c, at 4c and 4n+3: numbers of the next level follow from those of this one without a search.
  *
- * Cost: O(corners); 16 bytes read and 144 written a corner, of those 16 for the corners' vertices. */
+ * Cost: O(corners); 8 bytes read and 36 written a corner, 16 on the last level. */
 #include "lib/algorithms/subdivide_topology.h"
 
 #include <string.h>
 
 typedef struct refine_job {
     const mt_subdivide_topology *parent;
-    mt_index *vertices, *twins, *edge_ranks, *vertex_corners; /* of the child; but the first NULL on the last level */
+    mt_index *vertices, *twins, *edge_ranks; /* of the child; but the first NULL on the last level */
+    mt_index *vertex_corners;                /* made at level 1 alone */
 } refine_job;
 
 MT_SUBDIVIDE_INLINE void link_corner(const refine_job *job, mt_index corner, mt_index next, mt_index previous,
-                                     mt_index edge_point, bool quads)
+                                     unsigned sides)
 {
     const mt_subdivide_topology *parent = job->parent;
     mt_index twin = parent->twins[corner], previous_twin = parent->twins[previous];
     mt_index *twins = job->twins + 4 * (size_t)corner;
-    twins[0] = twin == corner ? 4 * corner : 4 * mt_subdivide_next(parent, twin, quads) + 3;
+    twins[0] = twin == corner ? 4 * corner : 4 * mt_subdivide_next(parent, twin, sides) + 3;
     twins[1] = 4 * next + 2;
     twins[2] = 4 * previous + 1;
     twins[3] = previous_twin == previous ? 4 * corner + 3 : 4 * previous_twin;
-    if (job->vertex_corners && twin >= corner) {
-        job->vertex_corners[edge_point] = twin == corner ? 4 * next + 3 : 4 * corner + 1;
-    }
 }
 
-MT_SUBDIVIDE_INLINE void refine_face(const refine_job *job, mt_index face, bool quads, bool last)
+MT_SUBDIVIDE_INLINE void refine_face(const refine_job *job, mt_index face, unsigned sides, bool last)
 {
     const mt_subdivide_topology *parent = job->parent;
-    mt_index begin = mt_subdivide_face_begin(parent, face, quads);
-    mt_index end = quads ? begin + 4 : parent->face_offsets[face + 1];
+    mt_index begin = mt_subdivide_face_begin(parent, face, sides);
+    mt_index end = mt_subdivide_face_begin(parent, face + 1, sides);
     mt_index face_point = parent->vertex_count + face;
     mt_index first_edge_point = parent->vertex_count + parent->face_count;
-    mt_index rank = 2 * parent->edge_ranks[quads ? face : begin] + begin;
-    mt_index previous_point = first_edge_point + mt_subdivide_edge(parent, end - 1, quads);
+    mt_index rank = 2 * mt_subdivide_face_rank(parent, face, sides) + begin;
+    mt_index previous_point = first_edge_point + mt_subdivide_edge(parent, end - 1, sides);
     for (mt_index corner = begin; corner < end; corner++) {
         mt_index previous = corner == begin ? end - 1 : corner - 1;
-        mt_index edge_point = first_edge_point + mt_subdivide_edge(parent, corner, quads);
+        mt_index edge_point = first_edge_point + mt_subdivide_edge(parent, corner, sides);
         mt_index *vertices = job->vertices + 4 * (size_t)corner;
         vertices[0] = parent->corner_vertices[corner];
         vertices[1] = edge_point;
@@ -51,28 +49,30 @@ MT_SUBDIVIDE_INLINE void refine_face(const refine_job *job, mt_index face, bool 
         vertices[3] = previous_point;
         previous_point = edge_point;
         if (!last) {
-            link_corner(job, corner, corner + 1 == end ? begin : corner + 1, previous, edge_point, quads);
+            link_corner(job, corner, corner + 1 == end ? begin : corner + 1, previous, sides);
             job->edge_ranks[corner] = rank;
             rank += (mt_index)mt_subdivide_is_first(parent, corner) + (mt_index)(corner + 1 != end) +
                     (mt_index)(corner == begin) + (mt_index)mt_subdivide_is_first(parent, previous);
         }
     }
-    if (!last && job->vertex_corners) {
+    if (sides != 4 && !last && job->vertex_corners) {
         job->vertex_corners[face_point] = 4 * begin + 2;
     }
 }
 
-#define FACE_LOOP(name, quads, last)                                                                                   \
+#define FACE_LOOP(name, sides, last)                                                                                   \
     static void name(void *user, uint64_t begin, uint64_t end)                                                         \
     {                                                                                                                  \
         for (uint64_t face = begin; face < end; face++) {                                                              \
-            refine_face(user, (mt_index)face, quads, last);                                                            \
+            refine_face(user, (mt_index)face, sides, last);                                                            \
         }                                                                                                              \
     }
-FACE_LOOP(refine_polygons, false, false)
-FACE_LOOP(refine_polygons_last, false, true)
-FACE_LOOP(refine_quads, true, false)
-FACE_LOOP(refine_quads_last, true, true)
+FACE_LOOP(refine_polygons, 0, false)
+FACE_LOOP(refine_polygons_last, 0, true)
+FACE_LOOP(refine_triangles, 3, false)
+FACE_LOOP(refine_triangles_last, 3, true)
+FACE_LOOP(refine_quads, 4, false)
+FACE_LOOP(refine_quads_last, 4, true)
 
 static void keep_old_vertices(void *user, uint64_t begin, uint64_t end)
 {
@@ -83,36 +83,55 @@ static void keep_old_vertices(void *user, uint64_t begin, uint64_t end)
     }
 }
 
-static bool allocate_links(mt_context *context, const mt_subdivide_topology *parent, refine_job *job,
+/* Level 1 makes the list from level 0's, later levels hand it on. */
+static bool continue_vertex_corners(mt_context *context, mt_subdivide_topology *parent, refine_job *job,
+                                    mt_subdivide_topology *child)
+{
+    child->vertex_corner_count = parent->vertex_corner_count;
+    if (parent->level > 0 || !parent->vertex_corners) {
+        child->vertex_corners = parent->vertex_corners;
+        child->vertex_corner_shift = parent->vertex_corner_shift + 2;
+        child->owned[2] = parent->owned[2];
+        parent->owned[2] = NULL;
+        return true;
+    }
+    if (parent->face_size != 4) {
+        child->vertex_corner_count += parent->face_count;
+    }
+    child->owned[2] = job->vertex_corners = mt_allocate_array(context, child->vertex_corner_count, sizeof(mt_index));
+    child->vertex_corners = job->vertex_corners;
+    return job->vertex_corners != NULL;
+}
+
+static bool allocate_links(mt_context *context, mt_subdivide_topology *parent, refine_job *job,
                            mt_subdivide_topology *child)
 {
     child->owned[0] = job->twins = mt_allocate_array(context, child->corner_count, sizeof(mt_index));
     child->owned[1] = job->edge_ranks = mt_allocate_array(context, child->face_count, sizeof(mt_index));
-    if (parent->vertex_corners) {
-        child->owned[2] = job->vertex_corners = mt_allocate_array(context, child->vertex_count, sizeof(mt_index));
-    }
     child->twins = job->twins;
     child->edge_ranks = job->edge_ranks;
-    child->vertex_corners = job->vertex_corners;
-    return job->twins && job->edge_ranks && (job->vertex_corners || !parent->vertex_corners);
+    return job->twins && job->edge_ranks && continue_vertex_corners(context, parent, job, child);
 }
 
-mt_status mt_subdivide_topology_refine(mt_context *context, const mt_subdivide_topology *parent,
-                                       mt_index *corner_vertices, bool last, mt_subdivide_topology *child)
+mt_status mt_subdivide_topology_refine(mt_context *context, mt_subdivide_topology *parent, mt_index *corner_vertices,
+                                       bool last, mt_subdivide_topology *child)
 {
-    static const mt_parallel_body loops[2][2] = {{refine_polygons, refine_polygons_last},
-                                                 {refine_quads, refine_quads_last}};
+    static const mt_parallel_body loops[][2] = {[0] = {refine_polygons, refine_polygons_last},
+                                                [3] = {refine_triangles, refine_triangles_last},
+                                                [4] = {refine_quads, refine_quads_last}};
     refine_job job = {.parent = parent, .vertices = corner_vertices};
     *child = (mt_subdivide_topology){.vertex_count = (mt_index)mt_subdivide_child_vertex_count(parent),
                                      .face_count = parent->corner_count,
                                      .corner_count = 4 * parent->corner_count,
                                      .edge_count = 2 * parent->edge_count + parent->corner_count,
+                                     .level = parent->level + 1,
+                                     .face_size = 4,
                                      .corner_vertices = corner_vertices};
     if (!last && !allocate_links(context, parent, &job, child)) {
         mt_subdivide_topology_release(context, child);
         return mt_context_error(context)->status;
     }
-    mt_parallel_for(context, parent->face_count, MT_SUBDIVIDE_GRAIN, loops[!parent->face_offsets][last], &job);
+    mt_parallel_for(context, parent->face_count, MT_SUBDIVIDE_GRAIN, loops[parent->face_size][last], &job);
     if (job.vertex_corners) {
         mt_parallel_for(context, parent->vertex_count, 4 * MT_SUBDIVIDE_GRAIN, keep_old_vertices, &job);
     }

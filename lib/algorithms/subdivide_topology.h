@@ -16,14 +16,23 @@
 
 typedef struct mt_subdivide_topology {
     mt_index vertex_count, face_count, corner_count, edge_count;
+    unsigned level;
+    unsigned face_size; /* sides of every face: 3, 4; 0: of any number */
     const mt_index *corner_vertices;
-    const mt_index *twins;          /* per corner the opposite one, itself at a boundary */
-    const mt_index *face_offsets;   /* face_count + 1; NULL: all faces are quads */
-    const mt_index *corner_faces;   /* NULL: all faces are quads */
-    const mt_index *edge_ranks;     /* edges whose first corner comes before: per corner, for quads per face */
-    const mt_index *vertex_corners; /* one corner of a vertex, at a boundary the one whose side leaves along it,
-                                       MT_NONE without faces; NULL for values that only linear rules touch */
-    void *owned[6];                 /* those of the arrays that the topology frees */
+    const mt_index *twins;        /* per corner the opposite one, itself at a boundary */
+    const mt_index *face_offsets; /* face_count + 1; NULL when face_size is not 0 */
+    const mt_index *corner_faces; /* NULL when face_size is not 0 */
+    const mt_index *edge_ranks;   /* edges whose first corner comes before: per face, per corner if face_size is 0 */
+
+    /* One corner of each of the first vertices, at a boundary the one whose side leaves along it; MT_NONE: it has no
+     * face. Those are at level 0 all vertices, later the vertices and, unless quads', the face points of level 0: all
+     * that may be irregular. As the corner 4c continues c at its vertex, entries of level 1 serve later levels when
+     * shifted. NULL for values that only linear rules touch. */
+    const mt_index *vertex_corners;
+    mt_index vertex_corner_count;
+    unsigned vertex_corner_shift;
+
+    void *owned[6]; /* those of the arrays that the topology frees */
 } mt_subdivide_topology;
 
 /* Level 0, of the vertices. Borrows the arrays of the mesh and of the pairs, which must outlive it; every edge must
@@ -39,10 +48,10 @@ mt_status mt_subdivide_topology_of_values(mt_context *context, const mt_subdivid
 /* Edges of the mesh that a corner attribute splits in two. O(corners). */
 mt_index mt_subdivide_seam_count(const mt_mesh *mesh, const mt_edge_pairs *pairs, const mt_attribute *attribute);
 
-/* The next level. corner_vertices receives its corners (16 a face of quads; the caller's). With `last` nothing else
- * is made: no further level can follow. */
-mt_status mt_subdivide_topology_refine(mt_context *context, const mt_subdivide_topology *parent,
-                                       mt_index *corner_vertices, bool last, mt_subdivide_topology *child);
+/* The next level. corner_vertices receives its corners (4 for each of the parent's; the caller's). With `last` nothing
+ * else is made: no further level can follow. Takes vertex_corners over from a parent past level 0. */
+mt_status mt_subdivide_topology_refine(mt_context *context, mt_subdivide_topology *parent, mt_index *corner_vertices,
+                                       bool last, mt_subdivide_topology *child);
 
 void mt_subdivide_topology_release(mt_context *context, mt_subdivide_topology *topology);
 
@@ -52,33 +61,38 @@ static inline uint64_t mt_subdivide_child_vertex_count(const mt_subdivide_topolo
     return (uint64_t)topology->vertex_count + topology->face_count + topology->edge_count;
 }
 
-/* In all below `quads` is a constant of the caller, so that each loop is compiled for quads and for polygons. */
-MT_SUBDIVIDE_INLINE mt_index mt_subdivide_face(const mt_subdivide_topology *topology, mt_index corner, bool quads)
+/* In all below `sides` is a constant of the caller, 3 or 4 or 0 for face_offsets, so that each loop is compiled for
+ * triangles, quads and polygons. */
+MT_SUBDIVIDE_INLINE mt_index mt_subdivide_face(const mt_subdivide_topology *topology, mt_index corner, unsigned sides)
 {
-    return quads ? corner >> 2 : topology->corner_faces[corner];
+    return sides ? corner / sides : topology->corner_faces[corner];
 }
 
-MT_SUBDIVIDE_INLINE mt_index mt_subdivide_face_begin(const mt_subdivide_topology *topology, mt_index face, bool quads)
+MT_SUBDIVIDE_INLINE mt_index mt_subdivide_face_begin(const mt_subdivide_topology *topology, mt_index face,
+                                                     unsigned sides)
 {
-    return quads ? face << 2 : topology->face_offsets[face];
+    return sides ? face * sides : topology->face_offsets[face];
 }
 
-MT_SUBDIVIDE_INLINE mt_index mt_subdivide_next(const mt_subdivide_topology *topology, mt_index corner, bool quads)
+MT_SUBDIVIDE_INLINE mt_index mt_subdivide_next(const mt_subdivide_topology *topology, mt_index corner, unsigned sides)
 {
-    if (quads) {
+    if (sides == 4) {
         return (corner & ~3u) | ((corner + 1) & 3u);
     }
-    mt_index face = topology->corner_faces[corner];
-    return corner + 1 < topology->face_offsets[face + 1] ? corner + 1 : topology->face_offsets[face];
+    mt_index face = mt_subdivide_face(topology, corner, sides);
+    mt_index end = mt_subdivide_face_begin(topology, face + 1, sides);
+    return corner + 1 < end ? corner + 1 : mt_subdivide_face_begin(topology, face, sides);
 }
 
-MT_SUBDIVIDE_INLINE mt_index mt_subdivide_previous(const mt_subdivide_topology *topology, mt_index corner, bool quads)
+MT_SUBDIVIDE_INLINE mt_index mt_subdivide_previous(const mt_subdivide_topology *topology, mt_index corner,
+                                                   unsigned sides)
 {
-    if (quads) {
+    if (sides == 4) {
         return (corner & ~3u) | ((corner + 3) & 3u);
     }
-    mt_index face = topology->corner_faces[corner];
-    return corner > topology->face_offsets[face] ? corner - 1 : topology->face_offsets[face + 1] - 1;
+    mt_index face = mt_subdivide_face(topology, corner, sides);
+    mt_index begin = mt_subdivide_face_begin(topology, face, sides);
+    return corner > begin ? corner - 1 : mt_subdivide_face_begin(topology, face + 1, sides) - 1;
 }
 
 /* Whether the edge of this side is numbered here. */
@@ -87,25 +101,41 @@ MT_SUBDIVIDE_INLINE bool mt_subdivide_is_first(const mt_subdivide_topology *topo
     return topology->twins[corner] >= corner;
 }
 
+/* The number of the first edge that begins in a face or later. */
+MT_SUBDIVIDE_INLINE mt_index mt_subdivide_face_rank(const mt_subdivide_topology *topology, mt_index face,
+                                                    unsigned sides)
+{
+    return topology->edge_ranks[sides ? face : topology->face_offsets[face]];
+}
+
 /* The number of the edge of a side. */
-MT_SUBDIVIDE_INLINE mt_index mt_subdivide_edge(const mt_subdivide_topology *topology, mt_index corner, bool quads)
+MT_SUBDIVIDE_INLINE mt_index mt_subdivide_edge(const mt_subdivide_topology *topology, mt_index corner, unsigned sides)
 {
     mt_index twin = topology->twins[corner];
     mt_index first = twin < corner ? twin : corner;
-    if (!quads) {
+    if (!sides) {
         return topology->edge_ranks[first];
     }
-    mt_index begin = first & ~3u, slot = first & 3u;
-    const mt_index *twins = topology->twins + begin;
-    return topology->edge_ranks[first >> 2] + (mt_index)((slot > 0) & (twins[0] >= begin)) +
-           (mt_index)((slot > 1) & (twins[1] >= begin + 1)) + (mt_index)((slot > 2) & (twins[2] >= begin + 2));
+    mt_index face = first / sides, begin = face * sides;
+    mt_index rank = topology->edge_ranks[face];
+    for (mt_index i = 0; i + 1 < sides; i++) {
+        rank += (mt_index)((begin + i < first) & (topology->twins[begin + i] >= begin + i));
+    }
+    return rank;
 }
 
-/* The next corner around the same vertex, counter-clockwise. At a boundary vertex the walk begins at its
- * vertex_corners entry and must end before this is asked of the last one. */
-MT_SUBDIVIDE_INLINE mt_index mt_subdivide_turn(const mt_subdivide_topology *topology, mt_index corner, bool quads)
+/* The corner at which a walk around one of the first vertex_corner_count vertices begins, or MT_NONE. */
+MT_SUBDIVIDE_INLINE mt_index mt_subdivide_vertex_corner(const mt_subdivide_topology *topology, mt_index vertex)
 {
-    return topology->twins[mt_subdivide_previous(topology, corner, quads)];
+    mt_index corner = topology->vertex_corners[vertex];
+    return corner == MT_NONE ? MT_NONE : corner << topology->vertex_corner_shift;
+}
+
+/* The next corner around the same vertex, counter-clockwise. At a boundary vertex the walk
+ * begins at mt_subdivide_vertex_corner and must end before this is asked of the last one. */
+MT_SUBDIVIDE_INLINE mt_index mt_subdivide_turn(const mt_subdivide_topology *topology, mt_index corner, unsigned sides)
+{
+    return topology->twins[mt_subdivide_previous(topology, corner, sides)];
 }
 
 #endif
