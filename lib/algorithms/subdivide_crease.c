@@ -110,17 +110,20 @@ mt_status mt_subdivide_creases_refine(mt_context *context, mt_subdivide_state *s
 
 static mt_status add_sharp_vertices(mt_context *context, const mt_mesh *mesh, unsigned level_count, mt_mesh *result)
 {
-    result->sharp_vertices = mt_allocate_array(context, mesh->sharp_vertex_count, sizeof *result->sharp_vertices);
+    result->sharp_vertices =
+        mt_allocate_array_zeroed(context, mesh->sharp_vertex_count, sizeof *result->sharp_vertices);
     if (!result->sharp_vertices) {
         return mt_context_error(context)->status;
     }
     for (mt_index i = 0; i < mesh->sharp_vertex_count; i++) {
-        mt_vertex_value vertex = mesh->sharp_vertices[i];
+        double value = mesh->sharp_vertices[i].value;
         for (unsigned level = 0; level < level_count; level++) {
-            vertex.value = next_sharpness(vertex.value);
+            value = next_sharpness(value);
         }
-        if (vertex.value > 0) {
-            result->sharp_vertices[result->sharp_vertex_count++] = vertex;
+        if (value > 0) {
+            mt_vertex_value *vertex = &result->sharp_vertices[result->sharp_vertex_count++];
+            vertex->vertex = mesh->sharp_vertices[i].vertex;
+            vertex->value = value;
         }
     }
     return MT_OK;
