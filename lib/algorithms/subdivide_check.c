@@ -122,10 +122,14 @@ static mt_index first_corner_of_class(const mt_mesh *mesh, const mt_edge_pairs *
     return corner;
 }
 
-static mt_index next_corner(const mt_mesh *mesh, mt_index corner)
+/* The ends of a corner's side, the lower number first. */
+static void side_ends(const mt_mesh *mesh, mt_index corner, mt_index ends[2])
 {
     mt_index face = mt_mesh_corner_face(mesh, corner);
-    return corner + 1 < mt_mesh_face_end(mesh, face) ? corner + 1 : mt_mesh_face_begin(mesh, face);
+    mt_index next = corner + 1 < mt_mesh_face_end(mesh, face) ? corner + 1 : mt_mesh_face_begin(mesh, face);
+    mt_index a = mesh->corner_vertices[corner], b = mesh->corner_vertices[next];
+    ends[0] = a < b ? a : b;
+    ends[1] = a < b ? b : a;
 }
 
 /* "4, 9, 13", cut short where there are many; returns the number of sides on the edge. */
@@ -150,22 +154,26 @@ static mt_index list_faces(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_i
 static mt_status refuse_non_manifold_edge(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
 {
     char faces[128];
+    mt_index ends[2];
     mt_index corner = first_corner_of_class(mesh, pairs, MT_EDGE_NON_MANIFOLD);
     mt_index count = list_faces(mesh, pairs, corner, faces, sizeof faces);
+    side_ends(mesh, corner, ends);
     return mt_fail(context, MT_ERROR_NOT_MANIFOLD,
                    "edge %u-%u is shared by %u faces (%s); " NEEDS ": `meshtool repair --split` can separate them",
-                   mesh->corner_vertices[corner], mesh->corner_vertices[next_corner(mesh, corner)], count, faces);
+                   ends[0], ends[1], count, faces);
 }
 
 static mt_status refuse_misoriented_edge(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
 {
     char faces[128];
+    mt_index ends[2];
     mt_index corner = first_corner_of_class(mesh, pairs, MT_EDGE_MISORIENTED);
     list_faces(mesh, pairs, corner, faces, sizeof faces);
+    side_ends(mesh, corner, ends);
     return mt_fail(context, MT_ERROR_NOT_ORIENTED,
                    "faces %s run along edge %u-%u in the same direction; Catmull-Clark needs faces oriented alike: "
                    "`meshtool repair --orient` can turn them where the surface has two sides",
-                   faces, mesh->corner_vertices[corner], mesh->corner_vertices[next_corner(mesh, corner)]);
+                   faces, ends[0], ends[1]);
 }
 
 mt_status mt_subdivide_check_edges(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
@@ -235,7 +243,7 @@ static mt_status refuse_vertex(mt_context *context, const mt_subdivide_topology 
     }
     mt_free(context, missing);
     return mt_fail(context, MT_ERROR_NOT_MANIFOLD,
-                   "several fans of faces meet in vertex %u alone (one of them has face %u); " NEEDS
+                   "vertex %u joins several separate fans of faces (one of them has face %u); " NEEDS
                    ": `meshtool repair --split` can separate them",
                    vertex, mt_subdivide_face(topology, mt_subdivide_vertex_corner(topology, vertex), sides));
 }

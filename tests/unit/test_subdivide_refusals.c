@@ -64,13 +64,13 @@ static void test_pinched_vertices(void **state)
 {
     (void)state;
     static const mt_index bow_tie[] = {3, 3, 0, 1, 3, 0, 2, 4};
-    expect_refusal(5, 2, bow_tie, MT_ERROR_NOT_MANIFOLD, "several fans of faces meet in vertex 0 alone", "--split");
+    expect_refusal(5, 2, bow_tie, MT_ERROR_NOT_MANIFOLD, "vertex 0 joins several separate fans of faces", "--split");
     /* Two closed tetrahedra that share vertex 3. */
     static const mt_index cones[] = {3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 2, 0, 3,
                                      3, 4, 6, 5, 3, 4, 5, 3, 3, 5, 6, 3, 3, 6, 4, 3};
-    expect_refusal(7, 8, cones, MT_ERROR_NOT_MANIFOLD, "several fans of faces meet in vertex 3 alone", "--split");
+    expect_refusal(7, 8, cones, MT_ERROR_NOT_MANIFOLD, "vertex 3 joins several separate fans of faces", "--split");
     static const mt_index quads[] = {4, 3, 0, 1, 5, 4, 0, 2, 4, 6};
-    expect_refusal(7, 2, quads, MT_ERROR_NOT_MANIFOLD, "several fans of faces meet in vertex 0 alone", "--split");
+    expect_refusal(7, 2, quads, MT_ERROR_NOT_MANIFOLD, "vertex 0 joins several separate fans of faces", "--split");
 }
 
 /* Whatever a soup holds: either it is refused, or it is refined to a mesh with the same Euler characteristic. */
