@@ -10,7 +10,7 @@
 
 const mt_mesh_format *const *mt_mesh_formats(void)
 {
-    static const mt_mesh_format *const table[] = {&mt_obj_format, &mt_ply_format, NULL};
+    static const mt_mesh_format *const table[] = {&mt_obj_format, &mt_off_format, &mt_ply_format, NULL};
     return table;
 }
 

@@ -6,6 +6,8 @@
 #ifndef MESHTOOL_STREAM_TEXT_H
 #define MESHTOOL_STREAM_TEXT_H
 
+#include "formats/stream/cursor.h"
+
 #include <meshtool/mesh_format.h>
 
 #define MT_TEXT_PADDING 64 /* zero bytes that may be read after a block's final line end */
@@ -51,6 +53,9 @@ mt_status mt_text_count_lines(mt_context *context, mt_text *text, uint64_t *tota
  * blocks may go unparsed, earlier ones never. May be called again. */
 typedef void (*mt_text_parse_function)(void *user, mt_text_block *block);
 mt_status mt_text_parse(mt_context *context, mt_text *text, const char *task, mt_text_parse_function parse, void *user);
+/* The same for one block. */
+mt_status mt_text_parse_one(mt_context *context, mt_text *text, uint64_t block, mt_text_parse_function parse,
+                            void *user);
 
 /* Inside parse: records a failure at a byte of the block (NULL: without a place). The first in the block wins; the
  * parser should return after it. */
@@ -60,6 +65,13 @@ const char *mt_text_fail_number(mt_text_block *block, const char *at);
 /* The word at `at`, cut short and without unprintable bytes, for messages; `word` has room for MT_TEXT_WORD bytes. */
 #define MT_TEXT_WORD 40
 void mt_text_word(const char *at, char *word);
+/* The number that is the word at `at`; returns the byte after it, or NULL with the failure recorded. */
+static inline const char *mt_text_number(mt_text_block *block, const char *at, double *number)
+{
+    const char *stop;
+    bool right = mt_scan_number(at, block->end, number, &stop) == MT_NUMBER_OK && mt_is_space(*stop);
+    return right ? stop : mt_text_fail_number(block, at);
+}
 bool mt_text_failed(const mt_text_block *block);
 
 /* The line and column of a byte of the input, for messages. Reads the text up to there again. */
