@@ -2,7 +2,7 @@
 #include "tests/support/unit.h"
 
 #include "tests/support/fixture.h"
-#include "tests/support/reading.h"
+#include "tests/support/text_reading.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 
 static void check_triangle(mt_context *context, const char *text)
 {
-    mt_mesh *mesh = test_read_text(context, "a.obj", text);
+    mt_mesh *mesh = text_read(context, "a.obj", text);
     assert_int_equal(mesh->vertex_count, 3);
     assert_int_equal(mesh->face_count, 1);
     assert_int_equal(mesh->face_size, 3);
@@ -54,7 +54,7 @@ static void test_forms_of_a_triangle(void **state)
 
 static void check_refused(mt_context *context, const char *text, const char *message)
 {
-    const char *got = test_refuse(context, "a.obj", text, strlen(text), MT_ERROR_SYNTAX);
+    const char *got = text_refuse(context, "a.obj", text, strlen(text), MT_ERROR_SYNTAX);
     if (strcmp(got, message) != 0) {
         fail_msg("\"%s\", expected \"%s\"", got, message);
     }
@@ -117,10 +117,10 @@ static void test_what_is_refused_says_why(void **state)
         check_refused(context, cases[i].text, cases[i].message);
     }
     static const char nul[] = TRIANGLE "f 1 2 \0 3\n";
-    assert_string_equal(test_refuse(context, "a.obj", nul, sizeof nul - 1, MT_ERROR_SYNTAX),
+    assert_string_equal(text_refuse(context, "a.obj", nul, sizeof nul - 1, MT_ERROR_SYNTAX),
                         "a.obj:4:7: a NUL byte in text");
     static const char wide[] = "\xFF\xFEv\0 \0";
-    assert_non_null(strstr(test_refuse(context, "a.obj", wide, sizeof wide - 1, MT_ERROR_UNSUPPORTED), "UTF-16"));
+    assert_non_null(strstr(text_refuse(context, "a.obj", wide, sizeof wide - 1, MT_ERROR_UNSUPPORTED), "UTF-16"));
     test_context_end(context);
 }
 
@@ -129,9 +129,9 @@ static void test_what_is_let_go_is_warned_of_once(void **state)
     (void)state;
     test_warnings warnings;
     mt_context *context = test_context_with_warnings(&warnings, 1);
-    mt_mesh *mesh = test_read_text(context, "a.obj",
-                                   "mtllib ../up.mtl\nmtllib ../up.mtl\nv 0 0 0 2\nv 1 0 nan\nv 0 1 inf 1\nvp 1\nvp 2\n"
-                                   "cstype \\\n bezier\nt hole 1/0/0 3\nvt 0 0\nf 1 2 3\n");
+    mt_mesh *mesh = text_read(context, "a.obj",
+                              "mtllib ../up.mtl\nmtllib ../up.mtl\nv 0 0 0 2\nv 1 0 nan\nv 0 1 inf 1\nvp 1\nvp 2\n"
+                              "cstype \\\n bezier\nt hole 1/0/0 3\nvt 0 0\nf 1 2 3\n");
     assert_string_equal(warnings.text,
                         "a.obj: no face uses the 1 texture vertices, which are left out\n"
                         "a.obj:1: the material library \"../up.mtl\" is kept by name and not opened\n"
@@ -150,7 +150,7 @@ static void test_empty_files(void **state)
 {
     (void)state;
     mt_context *context = test_context();
-    mt_mesh *mesh = test_read_text(context, "a.obj", "# nothing here\n");
+    mt_mesh *mesh = text_read(context, "a.obj", "# nothing here\n");
     assert_int_equal(mesh->vertex_count, 0);
     assert_int_equal(mesh->face_count, 0);
     mt_mesh_destroy(context, mesh);
@@ -221,12 +221,12 @@ static void test_everything_is_kept_and_round_trips(void **state)
 {
     (void)state;
     mt_context *context = test_context();
-    mt_mesh *mesh = test_read_text(context, "a.obj", rich);
+    mt_mesh *mesh = text_read(context, "a.obj", rich);
     check_rich(mesh);
     mt_loss loss;
     assert_int_equal(mt_mesh_format_loss(context, mesh, mt_mesh_format_by_extension("OBJ"), &loss), MT_OK);
     assert_int_equal(loss.count, 0);
-    mt_mesh *again = test_through(context, mesh, "obj", MT_ENCODING_ASCII);
+    mt_mesh *again = text_through(context, mesh, "obj", MT_ENCODING_ASCII);
     check_rich(again);
     assert_int_equal(test_mesh_hash(again), test_mesh_hash(mesh));
     mt_mesh_destroy(context, again);
@@ -238,13 +238,13 @@ static void test_normals_by_vertex_are_normals_of_vertices(void **state)
 {
     (void)state;
     mt_context *context = test_context();
-    mt_mesh *mesh = test_read_text(
-        context, "a.obj", TRIANGLE "vn 0 0 1\nvn 0 1 0\nvn 1 0 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1/1 2/3/2 3/2/3\n");
+    mt_mesh *mesh = text_read(context, "a.obj",
+                              TRIANGLE "vn 0 0 1\nvn 0 1 0\nvn 1 0 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1/1 2/3/2 3/2/3\n");
     const mt_attribute *normal = mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX);
     assert_non_null(normal);
     assert_null(normal->indices);
     assert_non_null(mt_mesh_find_attribute(mesh, MT_SEMANTIC_UV, MT_DOMAIN_CORNER));
-    mt_mesh *again = test_through(context, mesh, "obj", MT_ENCODING_DEFAULT);
+    mt_mesh *again = text_through(context, mesh, "obj", MT_ENCODING_DEFAULT);
     assert_int_equal(test_mesh_hash(again), test_mesh_hash(mesh));
     mt_mesh_destroy(context, again);
     mt_mesh_destroy(context, mesh);
@@ -283,7 +283,7 @@ static void test_the_same_for_any_number_of_threads(void **state)
     uint64_t hashes[2];
     for (unsigned threads = 1; threads <= 2; threads++) {
         mt_context *context = test_context_with_threads(threads);
-        mt_mesh *mesh = test_read(context, "a.obj", text, size);
+        mt_mesh *mesh = text_read_bytes(context, "a.obj", text, size);
         assert_int_equal(mesh->vertex_count, 4 * rings);
         assert_int_equal(mesh->face_count, 3 * rings - 2);
         for (size_t ring = 0; ring < rings; ring++) {
@@ -298,7 +298,7 @@ static void test_the_same_for_any_number_of_threads(void **state)
             }
         }
         hashes[threads - 1] = test_mesh_hash(mesh);
-        mt_mesh *again = test_through(context, mesh, "obj", MT_ENCODING_DEFAULT);
+        mt_mesh *again = text_through(context, mesh, "obj", MT_ENCODING_DEFAULT);
         assert_int_equal(test_mesh_hash(again), hashes[threads - 1]);
         mt_mesh_destroy(context, again);
         mt_mesh_destroy(context, mesh);
@@ -329,7 +329,7 @@ static void test_place_of_a_wrong_reference(void **state)
         memcpy(face + 3, "99999", 5);
         snprintf(expected, sizeof expected, "a.obj:%zu:3: vertex 99999 does not exist: the file has 32000 vertices",
                  line);
-        assert_string_equal(test_refuse(context, "a.obj", text, size, MT_ERROR_SYNTAX), expected);
+        assert_string_equal(text_refuse(context, "a.obj", text, size, MT_ERROR_SYNTAX), expected);
         memcpy(face + 3, "-1/-1", 5);
         test_context_end(context);
     }
@@ -349,7 +349,7 @@ static void test_large_polygon_and_long_line(void **state)
         size += (size_t)sprintf(text + size, i % 10 ? " %zu" : " \\\n %zu", i + 1);
     }
     mt_context *context = test_context_with_threads(2);
-    mt_mesh *mesh = test_read(context, "a.obj", text, size);
+    mt_mesh *mesh = text_read_bytes(context, "a.obj", text, size);
     assert_int_equal(mesh->face_count, 1);
     assert_int_equal(mesh->face_size, sides);
     assert_int_equal(mesh->corner_vertices[sides - 1], sides - 1);
@@ -372,7 +372,7 @@ static void test_memory(void **state)
         size += (size_t)sprintf(text + size, "f %zu %zu %zu\nf %zu %zu %zu\n", i + 1, i + 2, i + side + 2, i + 1,
                                 i + side + 2, i + side + 1);
     }
-    mt_mesh *mesh = test_read(context, "a.obj", text, size);
+    mt_mesh *mesh = text_read_bytes(context, "a.obj", text, size);
     uint64_t held = mt_context_bytes(context);
     assert_true(mt_context_peak_bytes(context) < 3 * held);
     mt_mesh_destroy(context, mesh);
@@ -385,13 +385,13 @@ static void test_labels_of_other_formats(void **state)
 {
     (void)state;
     mt_context *context = test_context();
-    mt_mesh *mesh = test_read_text(context, "a.obj", TRIANGLE "f 1 2 3\nf 3 2 1\n");
+    mt_mesh *mesh = text_read(context, "a.obj", TRIANGLE "f 1 2 3\nf 3 2 1\n");
     mt_labels *labels;
     mt_index number;
     assert_int_equal(mt_mesh_add_labels(context, mesh, MT_LABEL_GROUP, &labels), MT_OK);
     assert_int_equal(mt_labels_add_name(context, labels, "two\nlines", &number), MT_OK);
     labels->face_labels[1] = number;
-    mt_mesh *again = test_through(context, mesh, "obj", MT_ENCODING_DEFAULT);
+    mt_mesh *again = text_through(context, mesh, "obj", MT_ENCODING_DEFAULT);
     labels = mt_mesh_find_labels(again, MT_LABEL_GROUP);
     assert_int_equal(labels->face_labels[0], MT_NONE);
     assert_string_equal(labels->names[labels->face_labels[1]], "two_lines");
