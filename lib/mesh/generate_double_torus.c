@@ -3,7 +3,7 @@
 #include "lib/mesh/generate.h"
 
 #define TUBE 0.4     /* radius of the tubes; the rings' is 1 */
-#define DISTANCE 1.6 /* of a ring's centre from the middle */
+#define DISTANCE 1.5 /* of a ring's centre from the middle */
 
 typedef struct ring_pair {
     mt_index columns, rows; /* of quads around a hole, and around a tube */
@@ -116,7 +116,7 @@ static void fill_neck(const ring_pair *pair, mt_index *corner)
 
 mt_status mt_generate_double_torus(mt_context *context, mt_index resolution, mt_mesh **out)
 {
-    mt_index rows = resolution / 2, reach = rows < 12 ? 1 : rows / 12;
+    mt_index rows = resolution / 2, reach = rows / 6;
     uint64_t n = (uint64_t)resolution * rows, side = 2 * (uint64_t)reach;
     ring_pair pair = {.columns = resolution, .rows = rows, .reach = reach};
     mt_mesh_layout layout = {.vertex_count = 2 * (n - (side - 1) * (side - 1)),

@@ -68,7 +68,7 @@ static mt_vec3 klein_position(const mt_sheet *sheet, mt_index i, mt_index j)
     double x = -2 * c * (3 * v.x - 30 * s + 90 * c4 * s - 60 * c6 * s + 5 * c * v.x * s);
     double y = -s * (3 * v.x - 3 * c2 * v.x - 48 * c4 * v.x + 48 * c6 * v.x - 60 * s + 5 * c * v.x * s -
                      5 * c3 * v.x * s - 80 * c5 * v.x * s + 80 * c7 * v.x * s);
-    double z = 2 * (3 + 5 * c * s) * v.y;
+    double z = -2 * (3 + 5 * c * s) * v.y;
     return mt_vec3_scale(mt_vec3_make(x, y, z), KLEIN_SCALE);
 }
 
