@@ -2,7 +2,7 @@
 #include "tests/support/unit.h"
 
 #include "tests/support/fixture.h"
-#include "tests/support/reading.h"
+#include "tests/support/text_reading.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 static void check_triangle(mt_context *context, const char *text)
 {
-    mt_mesh *mesh = test_read_text(context, "a.off", text);
+    mt_mesh *mesh = text_read(context, "a.off", text);
     assert_int_equal(mesh->vertex_count, 3);
     assert_int_equal(mesh->face_count, 1);
     assert_int_equal(mesh->face_size, 3);
@@ -94,13 +94,13 @@ static void test_what_is_refused_says_why(void **state)
     };
     mt_context *context = test_context();
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const char *got = test_refuse(context, "a.off", cases[i].text, strlen(cases[i].text), cases[i].status);
+        const char *got = text_refuse(context, "a.off", cases[i].text, strlen(cases[i].text), cases[i].status);
         if (strcmp(got, cases[i].message) != 0) {
             fail_msg("\"%s\", expected \"%s\"", got, cases[i].message);
         }
     }
     static const char nul[] = "OFF\n1 0 0\n0 \0 0\n";
-    assert_string_equal(test_refuse(context, "a.off", nul, sizeof nul - 1, MT_ERROR_SYNTAX),
+    assert_string_equal(text_refuse(context, "a.off", nul, sizeof nul - 1, MT_ERROR_SYNTAX),
                         "a.off:3:3: a NUL byte in text");
     test_context_end(context);
 }
@@ -110,11 +110,11 @@ static void test_empty_mesh_and_lines_left_over(void **state)
     (void)state;
     test_warnings warnings;
     mt_context *context = test_context_with_warnings(&warnings, 1);
-    mt_mesh *mesh = test_read_text(context, "a.off", "OFF\n0 0 0\n");
+    mt_mesh *mesh = text_read(context, "a.off", "OFF\n0 0 0\n");
     assert_int_equal(mesh->vertex_count + mesh->face_count, 0);
     assert_int_equal(warnings.count, 0);
     mt_mesh_destroy(context, mesh);
-    mesh = test_read_text(context, "a.off", "OFF\n3 1 0\n" VERTICES "3 0 1 2\nmore\n\nand more\n");
+    mesh = text_read(context, "a.off", "OFF\n3 1 0\n" VERTICES "3 0 1 2\nmore\n\nand more\n");
     assert_string_equal(warnings.text, "a.off: 2 lines after the last face are left out\n");
     mt_mesh_destroy(context, mesh);
     test_context_end(context);
@@ -157,9 +157,9 @@ static void test_colors(void **state)
         char text[400];
         snprintf(text, sizeof text, "OFF\n3 3 0\n" VERTICES "3 0 1 2%s\n3 2 1 0%s # c\n3 1 0 2%s\n", cases[i].tails[0],
                  cases[i].tails[1], cases[i].tails[2]);
-        mt_mesh *mesh = test_read_text(context, "a.off", text);
+        mt_mesh *mesh = text_read(context, "a.off", text);
         check_color(mesh, MT_DOMAIN_FACE, cases[i].type, cases[i].components, cases[i].expected);
-        mt_mesh *again = test_through(context, mesh, "off", MT_ENCODING_DEFAULT);
+        mt_mesh *again = text_through(context, mesh, "off", MT_ENCODING_DEFAULT);
         if (cases[i].components >= 3) {
             check_color(again, MT_DOMAIN_FACE, cases[i].type, cases[i].components, cases[i].expected);
         }
@@ -173,10 +173,10 @@ static void test_dark_bytes_stay_dark(void **state)
 {
     (void)state;
     mt_context *context = test_context();
-    mt_mesh *mesh = test_read_text(context, "a.off", "OFF\n3 1 0\n" VERTICES "3 0 1 2 9 9 9\n");
+    mt_mesh *mesh = text_read(context, "a.off", "OFF\n3 1 0\n" VERTICES "3 0 1 2 9 9 9\n");
     mt_attribute *color = mt_mesh_find_attribute(mesh, MT_SEMANTIC_COLOR, MT_DOMAIN_FACE);
     memset(color->values, 1, 3);
-    mt_mesh *again = test_through(context, mesh, "off", MT_ENCODING_DEFAULT);
+    mt_mesh *again = text_through(context, mesh, "off", MT_ENCODING_DEFAULT);
     color = mt_mesh_find_attribute(again, MT_SEMANTIC_COLOR, MT_DOMAIN_FACE);
     assert_true(mt_attribute_get(color, 0, 0) / mt_color_maximum(color->type) == 1.0 / 255.0);
     mt_mesh_destroy(context, again);
@@ -195,7 +195,7 @@ static void test_vertices_with_everything(void **state)
             text, sizeof text,
             "%s\n3 1 0\n0 0 0 0 0 1 255 0 0 0.5 1\n1 0 0 0 1 0 10 20 30 40 0 0\n0 1 0 1 0 0 7 0.1 1e-20\n4 0 1 2 1\n",
             words[i]);
-        mt_mesh *mesh = test_read_text(context, "a.off", text);
+        mt_mesh *mesh = text_read(context, "a.off", text);
         const mt_attribute *normal = mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX);
         const mt_attribute *uv = mt_mesh_find_attribute(mesh, MT_SEMANTIC_UV, MT_DOMAIN_VERTEX);
         static const double normals[] = {0, 0, 1, 0, 1, 0, 1, 0, 0}, uvs[] = {0.5, 1, 0, 0, 0.1, 1e-20};
@@ -204,7 +204,7 @@ static void test_vertices_with_everything(void **state)
         assert_memory_equal(normal->values, normals, sizeof normals);
         assert_memory_equal(uv->values, uvs, sizeof uvs);
         check_color(mesh, MT_DOMAIN_VERTEX, MT_U8, 4, colors);
-        mt_mesh *again = test_through(context, mesh, "off", MT_ENCODING_DEFAULT);
+        mt_mesh *again = text_through(context, mesh, "off", MT_ENCODING_DEFAULT);
         assert_int_equal(test_mesh_hash(again), test_mesh_hash(mesh));
         mt_mesh_destroy(context, again);
         mt_mesh_destroy(context, mesh);
@@ -257,7 +257,7 @@ static void test_binary(void **state)
     uint64_t hashes[2];
     for (int little = 0; little < 2; little++) {
         bytes b = binary_file(little, 2);
-        mt_mesh *mesh = test_read(context, "a.off", b.data, b.size);
+        mt_mesh *mesh = text_read_bytes(context, "a.off", b.data, b.size);
         static const mt_index offsets[] = {0, 3, 7}, corners[] = {0, 1, 2, 3, 2, 1, 0};
         static const double colors[] = {1, 1, 1, 0.5, 0.25, 1};
         assert_int_equal(mesh->position_type, MT_F32);
@@ -273,10 +273,10 @@ static void test_binary(void **state)
     assert_non_null(strstr(warnings.text, "little endian"));
     for (size_t size = 30; size < binary_file(false, 2).size; size++) {
         bytes b = binary_file(false, 2);
-        test_refuse(context, "a.off", b.data, size, MT_ERROR_SYNTAX);
+        text_refuse(context, "a.off", b.data, size, MT_ERROR_SYNTAX);
     }
     bytes b = binary_file(false, 0x10000000);
-    assert_non_null(strstr(test_refuse(context, "a.off", b.data, b.size, MT_ERROR_SYNTAX), "can hold"));
+    assert_non_null(strstr(text_refuse(context, "a.off", b.data, b.size, MT_ERROR_SYNTAX), "can hold"));
     test_context_end(context);
 }
 
@@ -300,7 +300,7 @@ static void test_the_same_for_any_number_of_threads(void **state)
     uint64_t hashes[2];
     for (unsigned threads = 1; threads <= 2; threads++) {
         mt_context *context = test_context_with_threads(threads);
-        mt_mesh *mesh = test_read(context, "a.off", text, size);
+        mt_mesh *mesh = text_read_bytes(context, "a.off", text, size);
         const mt_attribute *color = mt_mesh_find_attribute(mesh, MT_SEMANTIC_COLOR, MT_DOMAIN_FACE);
         assert_int_equal(mesh->face_count, count);
         for (mt_index i = 0; i < count; i++) {
@@ -311,7 +311,7 @@ static void test_the_same_for_any_number_of_threads(void **state)
             assert_true(mt_attribute_get(color, i, 0) == (i > count / 2 ? i % 256 : 255));
         }
         hashes[threads - 1] = test_mesh_hash(mesh);
-        mt_mesh *again = test_through(context, mesh, "off", MT_ENCODING_DEFAULT);
+        mt_mesh *again = text_through(context, mesh, "off", MT_ENCODING_DEFAULT);
         assert_int_equal(test_mesh_hash(again), hashes[threads - 1]);
         mt_mesh_destroy(context, again);
         mt_mesh_destroy(context, mesh);

@@ -12,6 +12,7 @@
 
 /* The hub */
 #include <meshtool/attribute.h>   /* normals, UVs, colours */
+#include <meshtool/derive.h>      /* new meshes from chosen elements */
 #include <meshtool/generate.h>    /* cube, torus, teapot ... */
 #include <meshtool/mesh.h>        /* vertices, polygons, labels, creases */
 #include <meshtool/transform.h>   /* scale, rotate, move */
