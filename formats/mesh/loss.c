@@ -82,13 +82,12 @@ static unsigned ability_of(const mt_attribute *attribute)
     return abilities[attribute->semantic][attribute->domain];
 }
 
-static void add_attribute(mt_loss *loss, const mt_attribute *attribute, unsigned held)
+static void add_attribute(mt_loss *loss, const mt_attribute *attribute, unsigned held, bool is_held)
 {
     static const char *const domains[] = {"mesh", "vertex", "corner", "face"};
     static const char *const semantics[] = {"attribute", "normals", "UVs", "colors"};
     const char *domain = domains[attribute->domain];
-    unsigned ability = ability_of(attribute);
-    if (!ability || !(held & ability)) {
+    if (!is_held) {
         if (attribute->semantic == MT_SEMANTIC_GENERIC) {
             add_item(loss, "%s attribute \"%.32s\"", domain, attribute->name);
         } else {
@@ -113,9 +112,20 @@ static void add_labels(mt_loss *loss, const mt_labels *labels, unsigned held)
     }
 }
 
-mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt_mesh_format *format, mt_loss *out)
+static bool holds_attribute(const mt_mesh *mesh, const mt_attribute *attribute, const mt_mesh_format *format,
+                            mt_encoding encoding)
 {
-    unsigned held = format->abilities;
+    return format->holds_attribute ? format->holds_attribute(mesh, attribute, encoding)
+                                   : (format->abilities & ability_of(attribute)) != 0;
+}
+
+mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt_mesh_format *format,
+                              mt_encoding encoding, mt_loss *out)
+{
+    if (encoding == MT_ENCODING_DEFAULT) {
+        encoding = format->has_binary ? MT_ENCODING_BINARY : MT_ENCODING_ASCII;
+    }
+    unsigned held = format->abilities & ~(encoding == MT_ENCODING_ASCII ? 0 : format->ascii_abilities);
     mt_status status = MT_OK;
     out->count = 0;
     if (!(held & MT_HOLDS_POLYGONS)) {
@@ -137,7 +147,8 @@ mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt
                   "coordinates rounded to single precision");
     }
     for (mt_index i = 0; i < mesh->attribute_count; i++) {
-        add_attribute(out, &mesh->attributes[i], held);
+        const mt_attribute *attribute = &mesh->attributes[i];
+        add_attribute(out, attribute, held, holds_attribute(mesh, attribute, format, encoding));
     }
     for (mt_index i = 0; i < mesh->label_set_count; i++) {
         add_labels(out, &mesh->label_sets[i], held);

@@ -50,6 +50,16 @@ static mt_status read_ply(mt_context *context, mt_input *input, const mt_mesh_re
     return status;
 }
 
+/* Vertices and faces have properties of any name; corners have their first texture coordinates alone. */
+static bool holds_attribute(const mt_mesh *mesh, const mt_attribute *attribute, mt_encoding encoding)
+{
+    (void)encoding;
+    if (attribute->domain == MT_DOMAIN_CORNER) {
+        return attribute == mt_mesh_find_attribute(mesh, MT_SEMANTIC_UV, MT_DOMAIN_CORNER);
+    }
+    return attribute->domain != MT_DOMAIN_MESH;
+}
+
 static const char *const extensions[] = {"ply", NULL};
 
 const mt_mesh_format mt_ply_format = {
@@ -63,6 +73,7 @@ const mt_mesh_format mt_ply_format = {
     .has_binary = true,
     .has_binary_big = true,
     .sniff = sniff_ply,
+    .holds_attribute = holds_attribute,
     .read = read_ply,
     .write = mt_ply_write,
 };

@@ -1,234 +1,198 @@
+/* Records are formatted in parallel blocks and written in order. */
 #include "formats/mesh/ply_write.h"
 
 #include "formats/mesh/ply_header.h"
 #include "formats/mesh/ply_schema.h"
-#include "formats/stream/number.h"
+#include "formats/stream/lines.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
-#define BUFFER_SIZE ((size_t)64 << 10)
-#define PROGRESS_STEP 65536u /* records */
+#define BLOCK_RECORDS 16384u
+#define NUMBER_ROOM (MT_NUMBER_ROOM + 2) /* with a separator and a line end */
 
 typedef struct ply_writer {
     mt_context *context;
     const mt_mesh *mesh;
     mt_output *output;
+    const ply_fields *fields;
     bool ascii, swap;
-    bool line_begun;
-    uint64_t partial_uvs; /* corners without texture coordinates in faces that have some */
-    size_t used;
-    char buffer[BUFFER_SIZE];
+    atomic_uint_fast64_t partial_uvs; /* corners without texture coordinates in faces that have some */
 } ply_writer;
 
-static mt_status flush(ply_writer *w)
-{
-    size_t used = w->used;
-    w->used = 0;
-    return mt_output_write(w->context, w->output, w->buffer, used);
-}
+/* One block at work. */
+typedef struct ply_block {
+    ply_writer *w;
+    mt_lines *lines;
+    mt_index wire; /* of the edge at hand */
+    bool line_begun;
+} ply_block;
 
-/* Room for one number, which takes up to MT_NUMBER_ROOM bytes and a separator. */
-static inline mt_status make_room(ply_writer *w)
+static inline void put_bytes(const ply_block *b, char *to, const void *value, size_t size)
 {
-    return BUFFER_SIZE - w->used < MT_NUMBER_ROOM + 2 ? flush(w) : MT_OK;
-}
-
-static size_t print_whole(int64_t number, char *text)
-{
-    char digits[24];
-    size_t count = 0, length = 0;
-    uint64_t rest = number < 0 ? 0 - (uint64_t)number : (uint64_t)number;
-    do {
-        digits[count++] = (char)('0' + rest % 10);
-        rest /= 10;
-    } while (rest);
-    if (number < 0) {
-        text[length++] = '-';
-    }
-    while (count) {
-        text[length++] = digits[--count];
-    }
-    return length;
-}
-
-static inline void begin_word(ply_writer *w)
-{
-    if (w->line_begun) {
-        w->buffer[w->used++] = ' ';
-    }
-    w->line_begun = true;
-}
-
-static inline void put_bytes(ply_writer *w, const void *value, size_t size)
-{
-    char *to = w->buffer + w->used;
     memcpy(to, value, size);
-    for (size_t i = 0; w->swap && i < size / 2; i++) {
+    for (size_t i = 0; b->w->swap && i < size / 2; i++) {
         char byte = to[i];
         to[i] = to[size - 1 - i];
         to[size - 1 - i] = byte;
     }
-    w->used += size;
 }
 
-/* A whole number of up to 32 bits. */
-static inline mt_status put_whole(ply_writer *w, uint32_t number, mt_type type)
+static inline char *begin_word(ply_block *b, char *at)
 {
-    mt_status status = make_room(w);
-    if (w->ascii) {
-        begin_word(w);
-        w->used += print_whole(number, w->buffer + w->used);
-    } else if (type == MT_U8) {
-        w->buffer[w->used++] = (char)number;
-    } else {
-        put_bytes(w, &number, sizeof number);
+    if (b->line_begun) {
+        *at++ = ' ';
     }
-    return status;
+    b->line_begun = true;
+    return at;
 }
 
-/* A number as it is stored; reading it as a double is exact for all types. */
-static void print_value(ply_writer *w, const char *value, mt_type type)
+static char *put_signed(char *at, int64_t number)
+{
+    if (number < 0) {
+        *at++ = '-';
+    }
+    return mt_put_unsigned(at, number < 0 ? 0 - (uint64_t)number : (uint64_t)number);
+}
+
+static char *print_value(char *at, const void *value, mt_type type)
 {
     uint32_t bits = 0;
     float single;
     double number;
-    begin_word(w);
-    char *to = w->buffer + w->used;
     switch (type) {
     case MT_F32:
         memcpy(&single, value, sizeof single);
-        w->used += mt_number_print_float(single, to);
-        return;
+        return mt_put_float(at, single);
     case MT_F64:
         memcpy(&number, value, sizeof number);
-        w->used += mt_number_print(number, to);
-        return;
+        return mt_put_number(at, number);
     default:
         memcpy(&bits, value, mt_type_size(type));
     }
-    int64_t whole = bits;
     if (type == MT_I8 || type == MT_I16 || type == MT_I32) {
         unsigned shift = 32 - 8 * (unsigned)mt_type_size(type);
-        whole = (int32_t)(bits << shift) >> shift;
+        return put_signed(at, (int32_t)(bits << shift) >> shift);
     }
-    w->used += print_whole(whole, to);
+    return mt_put_unsigned(at, bits);
 }
 
-static mt_status put_value(ply_writer *w, const char *value, mt_type type)
+/* A number as it is stored; NULL: one that is missing. */
+static void put_value(ply_block *b, const void *value, mt_type type)
 {
     static const float no_single = NAN;
     static const double no_number = NAN;
-    mt_status status = make_room(w);
+    static const uint32_t zero = 0;
+    char *at = mt_lines_reserve(b->lines, NUMBER_ROOM);
+    if (!at) {
+        return;
+    }
     if (!value) {
-        static const uint32_t zero = 0;
-        value = type == MT_F32   ? (const char *)&no_single
-                : type == MT_F64 ? (const char *)&no_number
-                                 : (const char *)&zero;
+        value = type == MT_F32 ? (const void *)&no_single : type == MT_F64 ? (const void *)&no_number : &zero;
     }
-    if (w->ascii) {
-        print_value(w, value, type);
+    if (b->w->ascii) {
+        char *end = print_value(begin_word(b, at), value, type);
+        b->lines->size += (size_t)(end - at);
     } else {
-        put_bytes(w, value, mt_type_size(type));
+        put_bytes(b, at, value, mt_type_size(type));
+        b->lines->size += mt_type_size(type);
     }
-    return status;
 }
 
-static mt_status put_face(ply_writer *w, const ply_field *field, mt_index face)
+/* A whole number that fits the type, which is MT_U8 or has 32 bits. */
+static void put_whole(ply_block *b, mt_index number, mt_type type)
 {
-    const mt_mesh *mesh = w->mesh;
-    mt_index begin = mt_mesh_face_begin(mesh, face), end = mt_mesh_face_end(mesh, face);
-    mt_status status = put_whole(w, end - begin, field->count_type);
-    for (mt_index corner = begin; status == MT_OK && corner < end; corner++) {
-        status = put_whole(w, mesh->corner_vertices[corner], field->type);
-    }
-    return status;
+    uint8_t small = (uint8_t)number;
+    put_value(b, type == MT_U8 ? (const void *)&small : &number, type);
 }
 
-static mt_status put_uv(ply_writer *w, const ply_field *field, mt_index value)
+static void put_face(ply_block *b, const ply_field *field, mt_index face)
+{
+    const mt_mesh *mesh = b->w->mesh;
+    mt_index begin = mt_mesh_face_begin(mesh, face), end = mt_mesh_face_end(mesh, face);
+    put_whole(b, end - begin, field->count_type);
+    for (mt_index corner = begin; corner < end; corner++) {
+        put_value(b, &mesh->corner_vertices[corner], field->type);
+    }
+}
+
+static void put_uv(ply_block *b, const ply_field *field, mt_index value)
 {
     const mt_attribute *uvs = field->attribute;
-    mt_status status = MT_OK;
-    for (uint32_t i = 0; status == MT_OK && i < uvs->component_count; i++) {
+    for (uint32_t i = 0; i < uvs->component_count; i++) {
         double number = value == MT_NONE ? (double)NAN : mt_attribute_get(uvs, value, i);
         float single = (float)number;
-        status = put_value(w, field->type == MT_F32 ? (const char *)&single : (const char *)&number, field->type);
+        put_value(b, field->type == MT_F32 ? (const void *)&single : &number, field->type);
     }
-    return status;
 }
 
 /* A face without any texture coordinates has an empty list. */
-static mt_status put_face_uvs(ply_writer *w, const ply_field *field, mt_index face)
+static void put_face_uvs(ply_block *b, const ply_field *field, mt_index face)
 {
-    mt_index begin = mt_mesh_face_begin(w->mesh, face), end = mt_mesh_face_end(w->mesh, face), missing = 0;
+    const mt_attribute *uvs = field->attribute;
+    mt_index begin = mt_mesh_face_begin(b->w->mesh, face), end = mt_mesh_face_end(b->w->mesh, face), missing = 0;
     for (mt_index corner = begin; corner < end; corner++) {
-        missing += mt_attribute_value_index(field->attribute, corner) == MT_NONE;
+        missing += mt_attribute_value_index(uvs, corner) == MT_NONE;
     }
     if (missing == end - begin) {
-        return put_whole(w, 0, field->count_type);
+        put_whole(b, 0, field->count_type);
+        return;
     }
-    w->partial_uvs += missing;
-    mt_status status = put_whole(w, (end - begin) * field->attribute->component_count, field->count_type);
-    for (mt_index corner = begin; status == MT_OK && corner < end; corner++) {
-        status = put_uv(w, field, mt_attribute_value_index(field->attribute, corner));
+    if (missing) {
+        atomic_fetch_add_explicit(&b->w->partial_uvs, missing, memory_order_relaxed);
     }
-    return status;
+    put_whole(b, (end - begin) * uvs->component_count, field->count_type);
+    for (mt_index corner = begin; corner < end; corner++) {
+        put_uv(b, field, mt_attribute_value_index(uvs, corner));
+    }
 }
 
-static mt_status put_field(ply_writer *w, const ply_field *field, mt_index record)
+/* Edge k of all wires begins at wire vertex k + (wires before its own), as each wire has one vertex more than edges. */
+static mt_index find_wire_vertex(ply_block *b, mt_index edge)
+{
+    const mt_mesh *mesh = b->w->mesh;
+    while (mesh->wire_offsets[b->wire + 1] - (b->wire + 1) <= edge) {
+        b->wire++;
+    }
+    return edge + b->wire;
+}
+
+static void put_field(ply_block *b, const ply_field *field, mt_index record)
 {
     mt_index value = field->indices ? field->indices[record] : record;
     switch (field->source) {
     case PLY_FROM_FACE:
-        return put_face(w, field, record);
+        put_face(b, field, record);
+        break;
     case PLY_FROM_FACE_UVS:
-        return put_face_uvs(w, field, record);
-    default:
-        return put_value(w, value == MT_NONE ? NULL : field->values + value * field->stride, field->type);
+        put_face_uvs(b, field, record);
+        break;
+    case PLY_FROM_WIRE:
+        put_value(b, field->values + find_wire_vertex(b, record) * field->stride, field->type);
+        break;
+    case PLY_FROM_VALUES:
+        put_value(b, value == MT_NONE ? NULL : field->values + value * field->stride, field->type);
+        break;
     }
 }
 
-static mt_status put_record(ply_writer *w, const ply_fields *fields, mt_index record)
+static void put_records(void *user, mt_lines *lines, uint64_t begin, uint64_t end)
 {
-    mt_status status = MT_OK;
-    for (uint32_t i = 0; status == MT_OK && i < fields->field_count; i++) {
-        status = put_field(w, &fields->fields[i], record);
-    }
-    if (w->ascii) {
-        w->buffer[w->used++] = '\n';
-        w->line_begun = false;
-    }
-    return status;
-}
-
-static mt_status put_element(ply_writer *w, const ply_fields *fields)
-{
-    mt_status status = MT_OK;
-    for (uint64_t record = 0; status == MT_OK && record < fields->record_count; record++) {
-        if (record % PROGRESS_STEP == 0) {
-            status = mt_progress(w->context, "writing PLY", (double)record / (double)fields->record_count);
+    ply_writer *w = user;
+    ply_block b = {.w = w, .lines = lines};
+    for (uint64_t record = begin; record < end; record++) {
+        for (uint32_t i = 0; i < w->fields->field_count; i++) {
+            put_field(&b, &w->fields->fields[i], (mt_index)record);
         }
-        if (status == MT_OK) {
-            status = put_record(w, fields, (mt_index)record);
+        if (w->ascii && mt_lines_reserve(lines, 1)) {
+            lines->bytes[lines->size++] = '\n';
+            b.line_begun = false;
         }
     }
-    return status;
 }
 
-/* Each side of a wire is one record. */
-static mt_status put_edges(ply_writer *w, const ply_fields *fields)
-{
-    const mt_mesh *mesh = w->mesh;
-    mt_status status = MT_OK;
-    for (mt_index wire = 0; fields->record_count && wire < mesh->wire_count; wire++) {
-        for (mt_index i = mesh->wire_offsets[wire]; status == MT_OK && i + 1 < mesh->wire_offsets[wire + 1]; i++) {
-            status = put_record(w, fields, i);
-        }
-    }
-    return status;
-}
-
-static mt_status put_declaration(ply_writer *w, const ply_fields *fields)
+static mt_status put_declaration(const ply_writer *w, const ply_fields *fields)
 {
     mt_status status = mt_output_format(w->context, w->output, "element %s %llu\n", fields->element,
                                         (unsigned long long)fields->record_count);
@@ -242,37 +206,23 @@ static mt_status put_declaration(ply_writer *w, const ply_fields *fields)
     return status;
 }
 
-static mt_status put_header(ply_writer *w, const ply_schema *schema, mt_encoding encoding)
+static mt_status put_all(ply_writer *w, const ply_schema *schema, mt_encoding encoding)
 {
     const char *name = encoding == MT_ENCODING_ASCII        ? "ascii"
                        : encoding == MT_ENCODING_BINARY_BIG ? "binary_big_endian"
                                                             : "binary_little_endian";
+    const ply_fields *all[] = {&schema->vertices, &schema->faces, &schema->edges};
+    size_t count = schema->edges.record_count ? 3 : 2;
     mt_status status = mt_output_format(w->context, w->output, "ply\nformat %s 1.0\n", name);
-    const ply_fields *all[] = {&schema->vertices, &schema->faces, schema->edges.record_count ? &schema->edges : NULL};
-    for (size_t i = 0; status == MT_OK && i < 3 && all[i]; i++) {
+    for (size_t i = 0; status == MT_OK && i < count; i++) {
         status = put_declaration(w, all[i]);
     }
-    return status == MT_OK ? mt_output_text(w->context, w->output, "end_header\n") : status;
-}
-
-static mt_status put_all(ply_writer *w, const ply_schema *schema, mt_encoding encoding)
-{
-    mt_status status = put_header(w, schema, encoding);
     if (status == MT_OK) {
-        status = put_element(w, &schema->vertices);
+        status = mt_output_text(w->context, w->output, "end_header\n");
     }
-    if (status == MT_OK) {
-        status = put_element(w, &schema->faces);
-    }
-    if (status == MT_OK) {
-        status = put_edges(w, &schema->edges);
-    }
-    if (status == MT_OK) {
-        status = flush(w);
-    }
-    if (w->partial_uvs) {
-        mt_warn(w->context, "%llu corners without texture coordinates, in faces that have some, are written as nan",
-                (unsigned long long)w->partial_uvs);
+    for (size_t i = 0; status == MT_OK && i < count; i++) {
+        w->fields = all[i];
+        status = mt_lines_write(w->context, w->output, all[i]->record_count, BLOCK_RECORDS, put_records, w);
     }
     return status;
 }
@@ -294,20 +244,17 @@ mt_status mt_ply_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_w
     if (status != MT_OK) {
         return status;
     }
-    ply_writer *w = mt_allocate(context, sizeof *w);
-    status = w ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
-    if (w) {
-        w->context = context;
-        w->mesh = mesh;
-        w->output = output;
-        w->ascii = options->encoding == MT_ENCODING_ASCII;
-        w->swap = is_swapped(options->encoding);
-        w->line_begun = false;
-        w->partial_uvs = 0;
-        w->used = 0;
-        status = put_all(w, &schema, options->encoding);
+    ply_writer w = {.context = context,
+                    .mesh = mesh,
+                    .output = output,
+                    .ascii = options->encoding == MT_ENCODING_ASCII,
+                    .swap = is_swapped(options->encoding)};
+    status = put_all(&w, &schema, options->encoding);
+    uint64_t partial = atomic_load(&w.partial_uvs);
+    if (status == MT_OK && partial) {
+        mt_warn(context, "%llu corners without texture coordinates, in faces that have some, are written as nan",
+                (unsigned long long)partial);
     }
-    mt_free(context, w);
     mt_ply_schema_release(context, &schema);
     return status;
 }

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* From here on a content is believed against the name. Below it the name decides among those that score. */
+/* From here on a content is believed against the name. Below it a name that tells a format decides. */
 #define SURE_SCORE 50
 
 const char *mt_path_extension(const char *path)
@@ -75,7 +75,7 @@ static mt_status choose(mt_context *context, const mt_input *input, const uint8_
                      : mt_fail_at(context, MT_ERROR_SYNTAX, place,
                                   "neither the content nor the name tells a mesh format (--from EXT names one)");
     }
-    *out = named && (named_score == score || (score < SURE_SCORE && named_score > 0)) ? named : best;
+    *out = named && (named_score == score || score < SURE_SCORE) ? named : best;
     if (named && *out != named) {
         mt_warn(context, "%s: the content is %s although the name says %s; read as %s", name, best->title, named->title,
                 best->title);

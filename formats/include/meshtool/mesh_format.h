@@ -62,10 +62,14 @@ typedef struct mt_mesh_format {
     const char *title;             /* for people: "Wavefront OBJ" */
     const char *const *extensions; /* lower case without the dot, NULL-terminated; the first is preferred */
     unsigned abilities;            /* of mt_ability */
+    unsigned ascii_abilities;      /* those of them that binary encodings do not have */
     bool has_ascii, has_binary, has_binary_big;
     /* How sure the first bytes make it: 0 not this format, 100 certain. `size` bytes of a file of
      * `total` bytes (UINT64_MAX when unknown) are given. */
     int (*sniff)(const uint8_t *bytes, size_t size, uint64_t total);
+    /* Whether this attribute of the mesh is held, where that is more or less than the abilities say; NULL: they say
+     * it. The encoding is never the default. */
+    bool (*holds_attribute)(const mt_mesh *mesh, const mt_attribute *attribute, mt_encoding encoding);
     /* Called with options that are never NULL. A reader may leave the precision asked for to the caller, and
      * need not count numbers that are not finite; a writer need not report loss. */
     mt_status (*read)(mt_context *context, mt_input *input, const mt_mesh_read_options *options, mt_mesh **out);
@@ -97,7 +101,8 @@ typedef struct mt_loss {
     size_t count; /* past the room the last item says "and more" */
     char items[16][64];
 } mt_loss;
-mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt_mesh_format *format, mt_loss *out);
+mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt_mesh_format *format,
+                              mt_encoding encoding, mt_loss *out);
 
 /* Writes a mesh beside its place and renames it there; a failed run leaves the old file and nothing new.
  * "-" is standard output; devices and pipes are written into. loss may be NULL. */
