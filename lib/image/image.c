@@ -1,7 +1,10 @@
 #include <meshtool/checked.h>
 #include <meshtool/image.h>
 
-mt_status mt_image_create(mt_context *context, uint32_t width, uint32_t height, uint32_t channel_count, mt_image **out)
+#include <string.h>
+
+mt_status mt_image_create_unfilled(mt_context *context, uint32_t width, uint32_t height, uint32_t channel_count,
+                                   mt_image **out)
 {
     *out = NULL;
     if (width == 0 || height == 0) {
@@ -15,7 +18,7 @@ mt_status mt_image_create(mt_context *context, uint32_t width, uint32_t height, 
         return mt_fail(context, MT_ERROR_TOO_LARGE, "a picture of %u x %u pixels is too large", width, height);
     }
     mt_image *image = (mt_image *)mt_allocate_zeroed(context, sizeof *image);
-    float *pixels = image ? (float *)mt_allocate_array_zeroed(context, value_count, sizeof *pixels) : NULL;
+    float *pixels = image ? (float *)mt_allocate_array(context, value_count, sizeof *pixels) : NULL;
     if (!pixels) {
         mt_free(context, image);
         return mt_context_error(context)->status;
@@ -26,6 +29,15 @@ mt_status mt_image_create(mt_context *context, uint32_t width, uint32_t height, 
     image->pixels = pixels;
     *out = image;
     return MT_OK;
+}
+
+mt_status mt_image_create(mt_context *context, uint32_t width, uint32_t height, uint32_t channel_count, mt_image **out)
+{
+    mt_status status = mt_image_create_unfilled(context, width, height, channel_count, out);
+    if (status == MT_OK) {
+        memset((*out)->pixels, 0, (size_t)width * height * channel_count * sizeof(float));
+    }
+    return status;
 }
 
 void mt_image_destroy(mt_context *context, mt_image *image)

@@ -10,7 +10,10 @@ static double clamp_unit(double x)
 double mt_srgb_encode(double linear)
 {
     double x = clamp_unit(linear);
-    return x <= 0.0031308 ? 12.92 * x : clamp_unit(1.055 * mt_pow(x, 1.0 / 2.4) - 0.055);
+    if (x <= 0.0031308) {
+        return 12.92 * x;
+    }
+    return x < 1.0 ? clamp_unit(1.055 * mt_pow(x, 1.0 / 2.4) - 0.055) : 1.0; /* 1.055 - 0.055 is not 1 in doubles */
 }
 
 double mt_srgb_decode(double encoded)

@@ -52,9 +52,11 @@ mt_tile_range mt_tile_range_of(int64_t first_x, int64_t first_y, int64_t last_x,
 static void visit_tiles(const bin_task *task, mt_index number, mt_tile_range range, size_t *places, bool fill)
 {
     const mt_binned *binned = task->binned;
+    /* In a block of two by two tiles most are touched. */
+    bool test = range.last_x - range.first_x > 1 || range.last_y - range.first_y > 1;
     for (uint32_t y = range.first_y; y <= range.last_y; y++) {
         for (uint32_t x = range.first_x; x <= range.last_x; x++) {
-            if (!binned->touches(binned->user, number, x, y)) {
+            if (test && !binned->touches(binned->user, number, x, y)) {
                 continue;
             }
             size_t *place = places + (size_t)y * task->bins->tiles_x + x;

@@ -3,7 +3,8 @@
  *
  * Most vertices have no crease: all their faces lie within half the crease angle of their common mean, so that any
  * two lie within the whole of it and every corner's mean is the common one. That is stored per vertex. Only for the
- * other vertices are the incident faces listed, and their corners are answered when a picture asks for them.
+ * other vertices are the incident faces listed, and their corners are answered when a picture asks for them. Vertices
+ * at the two sides of a seam count as one.
  *
  * Cost: linear, one float triple a face and one a vertex, and one index for each corner at a creased vertex. Sums
  * run over faces in ascending order: each task owns a range of vertices and passes over all faces.
@@ -56,42 +57,68 @@ static void find_face_normals(void *user, uint64_t begin, uint64_t end)
 /* Sums of one range of vertices. */
 typedef struct sum_task {
     const mt_corner_normals *normals;
-    double *sums; /* 3 per vertex */
+    uint32_t *open;
 } sum_task;
 
-static void sum_at_vertices(void *user, uint64_t begin, uint64_t end)
+/* Spread so that sums of a few of them do not cancel by chance. */
+static inline uint32_t spread(mt_index vertex)
 {
-    const sum_task *task = (const sum_task *)user;
+    uint32_t h = vertex * 0x9E3779B1u;
+    return h ^ (h >> 15);
+}
+
+static inline void add_face(const sum_task *task, mt_index face, mt_index begin, mt_index range)
+{
     const mt_mesh *mesh = task->normals->model->mesh;
-    mt_index range = (mt_index)(end - begin);
-    memset(task->sums + 3 * begin, 0, 3 * sizeof(double) * (size_t)range);
-    for (mt_index face = 0; face < mesh->face_count; face++) {
-        mt_index last = mt_mesh_face_end(mesh, face);
-        const float *n = task->normals->face_normals + 3 * (size_t)face;
-        for (mt_index corner = mt_mesh_face_begin(mesh, face); corner < last; corner++) {
-            mt_index vertex = mesh->corner_vertices[corner];
-            if (vertex - (mt_index)begin < range) {
-                double *sum = task->sums + 3 * (size_t)vertex;
-                sum[0] += (double)n[0], sum[1] += (double)n[1], sum[2] += (double)n[2];
-            }
+    mt_index first = mt_mesh_face_begin(mesh, face), end = mt_mesh_face_end(mesh, face);
+    const float *n = task->normals->face_normals + 3 * (size_t)face;
+    mt_index before = mesh->corner_vertices[end - 1], vertex = mesh->corner_vertices[first];
+    for (mt_index corner = first; corner < end; corner++) {
+        mt_index after = mesh->corner_vertices[corner + 1 < end ? corner + 1 : first];
+        if (vertex - begin < range) {
+            float *sum = task->normals->vertices[vertex].normal;
+            sum[0] += n[0], sum[1] += n[1], sum[2] += n[2];
+            task->open[vertex] += spread(after) - spread(before);
         }
+        before = vertex;
+        vertex = after;
     }
 }
 
-typedef struct unit_task {
-    const double *sums;
-    float *units;
-} unit_task;
+/* Sums the normals around vertices, and the neighbours after minus those before: where the faces close around a vertex,
+ * each neighbour is once the one and once the other. */
+static void sum_at_vertices(void *user, uint64_t begin, uint64_t end)
+{
+    const sum_task *task = (const sum_task *)user;
+    mt_index face_count = task->normals->model->mesh->face_count;
+    memset(task->normals->vertices + begin, 0, (size_t)(end - begin) * sizeof(mt_vertex_shading));
+    memset(task->open + begin, 0, (size_t)(end - begin) * sizeof(uint32_t));
+    for (mt_index face = 0; face < face_count; face++) {
+        add_face(task, face, (mt_index)begin, (mt_index)(end - begin));
+    }
+}
 
 static void make_units(void *user, uint64_t begin, uint64_t end)
 {
-    const unit_task *task = (const unit_task *)user;
+    const mt_corner_normals *normals = (const mt_corner_normals *)user;
     for (uint64_t vertex = begin; vertex < end; vertex++) {
-        const double *s = task->sums + 3 * vertex;
-        double length = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+        float *n = normals->vertices[vertex].normal;
+        double x = (double)n[0], y = (double)n[1], z = (double)n[2];
+        double length = sqrt(x * x + y * y + z * z);
         double scale = length > 0 ? 1.0 / length : 0.0;
-        for (int axis = 0; axis < 3; axis++) {
-            task->units[3 * vertex + (size_t)axis] = (float)(s[axis] * scale);
+        n[0] = (float)(x * scale), n[1] = (float)(y * scale), n[2] = (float)(z * scale);
+    }
+}
+
+/* The sum of a place stands at the vertex that the others are joined to. */
+static void add_joined(mt_corner_normals *normals)
+{
+    mt_index vertex_count = normals->model->mesh->vertex_count;
+    for (mt_index vertex = 0; normals->joined && vertex < vertex_count; vertex++) {
+        mt_index first = normals->joined[vertex];
+        float *n = normals->vertices[vertex].normal, *sum = normals->vertices[first].normal;
+        for (int axis = 0; axis < 3 && first != vertex; axis++) {
+            sum[axis] += n[axis];
         }
     }
 }
@@ -107,119 +134,67 @@ static uint64_t range_size(const mt_context *context, mt_index vertex_count)
 static mt_status average(mt_context *context, mt_corner_normals *normals)
 {
     mt_index vertex_count = normals->model->mesh->vertex_count;
-    normals->vertex_normals = (float *)mt_allocate_array(context, 3 * (uint64_t)vertex_count, sizeof(float));
-    double *sums = (double *)mt_allocate_array(context, 3 * (uint64_t)vertex_count, sizeof(double));
-    if (!normals->vertex_normals || !sums) {
-        mt_free(context, sums);
-        return mt_context_error(context)->status;
+    normals->vertices = (mt_vertex_shading *)mt_allocate_array(context, vertex_count, sizeof *normals->vertices);
+    uint32_t *open = (uint32_t *)mt_allocate_array(context, vertex_count, sizeof *open);
+    mt_status status = normals->vertices && open ? MT_OK : mt_context_error(context)->status;
+    if (status == MT_OK) {
+        sum_task task = {normals, open};
+        mt_parallel_for(context, vertex_count, range_size(context, vertex_count), sum_at_vertices, &task);
+        status = mt_join_seams(context, normals, open);
     }
-    sum_task task = {normals, sums};
-    mt_parallel_for(context, vertex_count, range_size(context, vertex_count), sum_at_vertices, &task);
-    unit_task units = {sums, normals->vertex_normals};
-    mt_parallel_for(context, vertex_count, FACE_BLOCK, make_units, &units);
-    mt_free(context, sums);
-    return MT_OK;
+    mt_free(context, open);
+    if (status == MT_OK) {
+        add_joined(normals);
+        mt_parallel_for(context, vertex_count, FACE_BLOCK, make_units, normals);
+    }
+    return status;
 }
 
 typedef struct crease_task {
     const mt_corner_normals *normals;
     unsigned char *flags;
     double half_cosine_squared; /* of half the crease angle */
+    bool *found;                /* per block of faces */
 } crease_task;
 
 static void find_creased(void *user, uint64_t begin, uint64_t end)
 {
     const crease_task *task = (const crease_task *)user;
     const mt_mesh *mesh = task->normals->model->mesh;
+    const unsigned char flags = MT_VERTEX_FINITE | MT_VERTEX_DRAWN | MT_VERTEX_CREASED;
+    bool found = false;
     for (uint64_t f = begin; f < end; f++) {
         mt_index face = (mt_index)f, last = mt_mesh_face_end(mesh, face);
         mt_vec3 n = mt_face_normal(task->normals, face);
         double limit = task->half_cosine_squared * mt_vec3_dot(n, n);
         for (mt_index corner = mt_mesh_face_begin(mesh, face); limit > 0 && corner < last; corner++) {
-            mt_index vertex = mesh->corner_vertices[corner];
-            const float *v = task->normals->vertex_normals + 3 * (size_t)vertex;
+            mt_index vertex = mt_joined_vertex(task->normals, mesh->corner_vertices[corner]);
+            const float *v = task->normals->vertices[vertex].normal;
             double dot = (double)v[0] * n.x + (double)v[1] * n.y + (double)v[2] * n.z;
             if (!(dot > 0 && dot * dot >= limit)) {
-                unsigned char flags = MT_VERTEX_FINITE | MT_VERTEX_DRAWN | MT_VERTEX_CREASED;
                 __atomic_store_n(&task->flags[vertex], flags, __ATOMIC_RELAXED);
+                found = true;
             }
         }
     }
+    task->found[begin / FACE_BLOCK] = found;
 }
 
-/* Lists of faces around creased vertices, a range of vertices to a task, in two passes: `fill` false counts into
- * first_faces[vertex + 1], true stores, moving first_faces[vertex] on. */
-typedef struct incidence_task {
-    mt_corner_normals *normals;
-    bool fill;
-} incidence_task;
-
-static void list_incident(void *user, uint64_t begin, uint64_t end)
+static mt_status find_creases(mt_context *context, mt_model *model, double half_cosine, mt_corner_normals *normals)
 {
-    const incidence_task *task = (const incidence_task *)user;
-    mt_corner_normals *normals = task->normals;
-    const mt_mesh *mesh = normals->model->mesh;
-    const unsigned char *flags = normals->model->flags;
-    mt_index range = (mt_index)(end - begin);
-    for (mt_index face = 0; face < mesh->face_count; face++) {
-        mt_index last = mt_mesh_face_end(mesh, face);
-        for (mt_index corner = mt_mesh_face_begin(mesh, face); corner < last; corner++) {
-            mt_index vertex = mesh->corner_vertices[corner];
-            if (vertex - (mt_index)begin >= range || !(flags[vertex] & MT_VERTEX_CREASED)) {
-                continue;
-            }
-            if (task->fill) {
-                normals->incident_faces[normals->first_faces[vertex]++] = face;
-            } else {
-                normals->first_faces[vertex]++;
-            }
-        }
-    }
-}
-
-/* Turns counts into first places; filling moves each on to the next one's, so they end shifted by one. */
-static size_t accumulate(size_t *firsts, mt_index count)
-{
-    size_t sum = 0;
-    for (mt_index i = 0; i < count; i++) {
-        size_t here = firsts[i];
-        firsts[i] = sum;
-        sum += here;
-    }
-    return sum;
-}
-
-static mt_status list_creased(mt_context *context, mt_corner_normals *normals)
-{
-    mt_index vertex_count = normals->model->mesh->vertex_count;
-    normals->first_faces = (size_t *)mt_allocate_array_zeroed(context, (uint64_t)vertex_count + 1, sizeof(size_t));
-    if (!normals->first_faces) {
+    mt_index face_count = model->mesh->face_count;
+    size_t block_count = ((size_t)face_count + FACE_BLOCK - 1) / FACE_BLOCK;
+    bool *found = (bool *)mt_allocate_array(context, block_count, sizeof *found), any = false;
+    if (!found) {
         return mt_context_error(context)->status;
     }
-    size_t *firsts = normals->first_faces;
-    uint64_t grain = range_size(context, vertex_count);
-    incidence_task task = {normals, false};
-    mt_parallel_for(context, vertex_count, grain, list_incident, &task);
-    size_t total = accumulate(firsts, vertex_count);
-    normals->incident_faces = (mt_index *)mt_allocate_array(context, total, sizeof(mt_index));
-    if (!normals->incident_faces) {
-        return mt_context_error(context)->status;
+    crease_task task = {normals, model->flags, half_cosine * half_cosine, found};
+    mt_parallel_for(context, face_count, FACE_BLOCK, find_creased, &task);
+    for (size_t block = 0; block < block_count; block++) {
+        any = any || found[block];
     }
-    task.fill = true;
-    mt_parallel_for(context, vertex_count, grain, list_incident, &task);
-    memmove(firsts + 1, firsts, vertex_count * sizeof *firsts);
-    firsts[0] = 0;
-    return MT_OK;
-}
-
-static bool any_creased(const mt_model *model)
-{
-    for (mt_index vertex = 0; vertex < model->mesh->vertex_count; vertex++) {
-        if (model->flags[vertex] & MT_VERTEX_CREASED) {
-            return true;
-        }
-    }
-    return false;
+    mt_free(context, found);
+    return any ? mt_list_creased(context, normals) : MT_OK;
 }
 
 /* Normals of the file are used when all of them can be: a NaN would leave holes in the shading. */
@@ -263,20 +238,15 @@ mt_status mt_corner_normals_build(mt_context *context, mt_model *model, double c
         return MT_OK;
     }
     mt_status status = average(context, normals);
-    if (status != MT_OK) {
-        return status;
-    }
-    double half = mt_cos(0.5 * angle) - COSINE_MARGIN;
-    crease_task task = {normals, model->flags, half * half};
-    mt_parallel_for(context, model->mesh->face_count, FACE_BLOCK, find_creased, &task);
-    return any_creased(model) ? list_creased(context, normals) : MT_OK;
+    double half_cosine = mt_cos(0.5 * angle) - COSINE_MARGIN;
+    return status == MT_OK ? find_creases(context, model, half_cosine, normals) : status;
 }
 
 void mt_corner_normals_release(mt_context *context, mt_corner_normals *normals)
 {
     mt_free(context, normals->face_normals);
-    mt_free(context, normals->vertex_normals);
-    mt_free(context, normals->first_faces);
+    mt_free(context, normals->vertices);
+    mt_free(context, normals->joined);
     mt_free(context, normals->incident_faces);
     memset(normals, 0, sizeof *normals);
 }
@@ -304,44 +274,45 @@ static mt_vec3 unit_or_zero(mt_vec3 a)
 }
 
 /* The mean over the faces around a creased vertex that lie within the crease angle of this one. */
-static mt_vec3 creased_normal(const mt_corner_normals *normals, mt_index face, mt_index vertex)
+static mt_vec3 creased_normal(const mt_corner_normals *normals, mt_index face, const mt_vertex_shading *vertex)
 {
     mt_vec3 own = mt_face_normal(normals, face), sum = mt_vec3_make(0, 0, 0);
-    size_t begin = normals->first_faces[vertex], end = normals->first_faces[vertex + 1];
     double own_squared = mt_vec3_dot(own, own), minimum = normals->minimum_cosine;
-    if (end - begin > VALENCE_LIMIT || !(own_squared > 0)) {
+    if (vertex->faces.count > VALENCE_LIMIT || !(own_squared > 0)) {
         return unit_or_zero(own);
     }
-    for (size_t at = begin; at < end; at++) {
-        mt_vec3 other = mt_face_normal(normals, normals->incident_faces[at]);
+    for (mt_index i = 0; i < vertex->faces.count; i++) {
+        mt_vec3 other = mt_face_normal(normals, normals->incident_faces[vertex->faces.first + i]);
         double dot = mt_vec3_dot(own, other);
-        double cosine_limit = minimum * sqrt(own_squared * mt_vec3_dot(other, other));
-        if (fabs(dot) >= cosine_limit) {
+        if (fabs(dot) >= minimum * sqrt(own_squared * mt_vec3_dot(other, other))) {
             sum = dot < 0 ? mt_vec3_subtract(sum, other) : mt_vec3_add(sum, other);
         }
     }
     return unit_or_zero(sum);
 }
 
+static mt_vec3 given_normal(const mt_corner_normals *normals, mt_index face, mt_index corner)
+{
+    const mt_attribute *given = normals->given;
+    mt_index vertex = normals->model->mesh->corner_vertices[corner];
+    mt_index value = mt_attribute_value_index(given, given->domain == MT_DOMAIN_CORNER ? corner : vertex);
+    mt_vec3 n = mt_vec3_make(0, 0, 0);
+    if (value != MT_NONE) {
+        n = mt_vec3_normalize(mt_vec3_make(mt_attribute_get(given, value, 0), mt_attribute_get(given, value, 1),
+                                           mt_attribute_get(given, value, 2)));
+    }
+    return mt_vec3_dot(n, n) > 0 ? n : unit_or_zero(mt_face_normal(normals, face));
+}
+
 mt_vec3 mt_corner_normal(const mt_corner_normals *normals, mt_index face, mt_index corner)
 {
-    const mt_model *model = normals->model;
-    mt_index vertex = model->mesh->corner_vertices[corner];
-    const mt_attribute *given = normals->given;
-    if (given) {
-        mt_index element = given->domain == MT_DOMAIN_CORNER ? corner : vertex;
-        mt_index value = mt_attribute_value_index(given, element);
-        if (value != MT_NONE) {
-            mt_vec3 n =
-                mt_vec3_normalize(mt_vec3_make(mt_attribute_get(given, value, 0), mt_attribute_get(given, value, 1),
-                                               mt_attribute_get(given, value, 2)));
-            return mt_vec3_dot(n, n) > 0 ? n : unit_or_zero(mt_face_normal(normals, face));
-        }
-        return unit_or_zero(mt_face_normal(normals, face));
+    if (normals->given) {
+        return given_normal(normals, face, corner);
     }
-    if (model->flags[vertex] & MT_VERTEX_CREASED) {
-        return creased_normal(normals, face, vertex);
+    mt_index vertex = mt_joined_vertex(normals, normals->model->mesh->corner_vertices[corner]);
+    const mt_vertex_shading *at = &normals->vertices[vertex];
+    if (normals->model->flags[vertex] & MT_VERTEX_CREASED) {
+        return creased_normal(normals, face, at);
     }
-    const float *n = normals->vertex_normals + 3 * (size_t)vertex;
-    return mt_vec3_make((double)n[0], (double)n[1], (double)n[2]);
+    return mt_vec3_make((double)at->normal[0], (double)at->normal[1], (double)at->normal[2]);
 }

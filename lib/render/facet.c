@@ -4,6 +4,12 @@
 #include <math.h>
 #include <string.h>
 
+/* A facet is lit as a whole where interpolation would not show: its sides are shorter than a pixel, or than a few
+ * pixels with one colour and normals that differ by 2 degrees at most. */
+#define TINY_SIZE (1.0 * MT_STEPS)
+#define SMALL_SIZE (3.0 * MT_STEPS)
+#define SMALL_COSINE 0.9994
+
 void mt_look_init(mt_look *look, const mt_frame *frame, const mt_corner_normals *normals,
                   const unsigned char *face_colors, mt_vec3 up)
 {
@@ -11,8 +17,9 @@ void mt_look_init(mt_look *look, const mt_frame *frame, const mt_corner_normals 
     look->frame = frame;
     look->normals = normals;
     mt_surface_init(frame->model->mesh, face_colors, &look->surface);
+    look->has_colors = look->surface.face_colors || look->surface.colors;
     look->lighting = mt_lighting_default(&frame->camera, up);
-    look->front_color = mt_linear_color(&look->surface, 0.84, 0.80, 0.74);
+    look->front_color = mt_linear_color(&look->surface, 0.87, 0.825, 0.765);
     look->back_color = mt_linear_color(&look->surface, 0.58, 0.68, 0.80);
     look->back_tint = mt_vec3_make(0.62, 0.72, 0.86);
     look->wire_color = mt_linear_color(&look->surface, 0.20, 0.25, 0.32);
@@ -22,8 +29,7 @@ void mt_look_init(mt_look *look, const mt_frame *frame, const mt_corner_normals 
 
 static mt_vec3 toward_eye(const mt_look *look, double x, double y)
 {
-    double unit = look->frame->unit;
-    return mt_camera_toward_eye(&look->frame->camera, x / unit, y / unit);
+    return mt_camera_toward_eye(&look->frame->camera, x / MT_STEPS, y / MT_STEPS);
 }
 
 static mt_vec3 facing(mt_vec3 normal, mt_vec3 side)
@@ -36,57 +42,90 @@ static bool same(mt_vec3 a, mt_vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-static void prepare_geometry(const mt_look *look, const mt_index vertices[3], mt_facet *facet, bool *front)
+/* What a facet is made from. */
+typedef struct source {
+    mt_index face, corners[3], vertices[3];
+    const mt_screen_vertex *screen[3];
+    bool front;
+    double size; /* steps */
+} source;
+
+static source load(const mt_look *look, mt_index triangle)
 {
-    const mt_screen_vertex *v[3];
-    for (int i = 0; i < 3; i++) {
-        v[i] = &look->frame->vertices[vertices[i]];
-        facet->depths[i] = v[i]->depth;
+    const mt_triangulation *triangulation = &look->frame->model->triangulation;
+    source from = {.face = mt_triangulation_face(triangulation, triangle)};
+    for (mt_index i = 0; i < 3; i++) {
+        from.corners[i] = mt_triangulation_corner(triangulation, triangle, i);
+        from.vertices[i] = look->surface.corner_vertices[from.corners[i]];
+        from.screen[i] = &look->frame->vertices[from.vertices[i]];
     }
-    double x1 = (double)v[1]->x - v[0]->x, y1 = (double)v[1]->y - v[0]->y;
-    double x2 = (double)v[2]->x - v[0]->x, y2 = (double)v[2]->y - v[0]->y;
-    double area = x1 * y2 - x2 * y1;
-    facet->x = v[0]->x;
-    facet->y = v[0]->y;
-    facet->slopes[0][0] = y2 / area, facet->slopes[0][1] = -x2 / area;
-    facet->slopes[1][0] = -y1 / area, facet->slopes[1][1] = x1 / area;
-    *front = area < 0; /* y runs down the picture */
+    return from;
 }
 
-static void prepare_colors(const mt_look *look, mt_index face, const mt_index corners[3], bool front, mt_facet *facet)
+static void prepare_geometry(source *from, mt_facet *facet)
 {
-    const mt_index *vertices = look->surface.corner_vertices;
+    const mt_screen_vertex *p = from->screen[0], *q = from->screen[1], *r = from->screen[2];
+    double x1 = q->x - p->x, y1 = q->y - p->y, x2 = r->x - p->x, y2 = r->y - p->y;
+    double area = x1 * y2 - x2 * y1, scale = 1.0 / area;
+    from->front = area < 0; /* y runs down the picture */
+    from->size = fmax(fmax(fabs(x1), fabs(y1)), fmax(fabs(x2), fabs(y2)));
+    facet->x = p->x;
+    facet->y = p->y;
+    facet->slopes[0][0] = y2 * scale, facet->slopes[0][1] = -x2 * scale;
+    facet->slopes[1][0] = -y1 * scale, facet->slopes[1][1] = x1 * scale;
+    facet->depths[0] = p->depth, facet->depths[1] = q->depth, facet->depths[2] = r->depth;
+}
+
+static void prepare_colors(const mt_look *look, const source *from, mt_facet *facet)
+{
+    facet->one_color = true;
     for (int i = 0; i < 3; i++) {
-        mt_vec3 color;
-        if (mt_surface_color(&look->surface, face, corners[i], vertices[corners[i]], &color)) {
-            mt_vec3 tint = look->back_tint;
-            facet->colors[i] = front ? color : mt_vec3_make(color.x * tint.x, color.y * tint.y, color.z * tint.z);
+        mt_vec3 color, tint = look->back_tint;
+        if (!look->has_colors) {
+            facet->colors[i] = from->front ? look->front_color : look->back_color;
+        } else if (mt_surface_color(&look->surface, from->face, from->corners[i], from->vertices[i], &color)) {
+            facet->colors[i] = from->front ? color : mt_vec3_make(color.x * tint.x, color.y * tint.y, color.z * tint.z);
         } else {
-            facet->colors[i] = front ? look->front_color : look->back_color;
+            facet->colors[i] = from->front ? look->front_color : look->back_color;
         }
+        facet->one_color = facet->one_color && same(facet->colors[0], facet->colors[i]);
     }
-    facet->one_color = same(facet->colors[0], facet->colors[1]) && same(facet->colors[0], facet->colors[2]);
+}
+
+static void prepare_normals(const mt_look *look, const source *from, mt_vec3 eye, mt_facet *facet)
+{
+    mt_vec3 side = facing(mt_face_normal(look->normals, from->face), eye);
+    facet->one_normal = true;
+    for (int i = 0; i < 3; i++) {
+        mt_vec3 normal = mt_corner_normal(look->normals, from->face, from->corners[i]);
+        facet->normals[i] = mt_vec3_dot(normal, normal) > 0 ? facing(normal, side) : eye;
+        facet->one_normal = facet->one_normal && same(facet->normals[0], facet->normals[i]);
+    }
+}
+
+static mt_vec3 unit_or(mt_vec3 a, mt_vec3 otherwise)
+{
+    double length = mt_vec3_length(a);
+    return length > 0 ? mt_vec3_scale(a, 1.0 / length) : otherwise;
 }
 
 void mt_facet_prepare(const mt_look *look, mt_index triangle, mt_facet *facet)
 {
-    const mt_triangulation *triangulation = &look->frame->model->triangulation;
-    mt_index face = mt_triangulation_face(triangulation, triangle), corners[3], vertices[3];
-    for (mt_index i = 0; i < 3; i++) {
-        corners[i] = mt_triangulation_corner(triangulation, triangle, i);
-        vertices[i] = look->surface.corner_vertices[corners[i]];
-    }
+    source from = load(look, triangle);
     facet->triangle = triangle;
-    bool front = false;
-    prepare_geometry(look, vertices, facet, &front);
-    prepare_colors(look, face, corners, front, facet);
+    prepare_geometry(&from, facet);
     mt_vec3 eye = toward_eye(look, facet->x, facet->y);
-    mt_vec3 side = facing(mt_face_normal(look->normals, face), eye);
-    for (int i = 0; i < 3; i++) {
-        mt_vec3 normal = mt_corner_normal(look->normals, face, corners[i]);
-        facet->normals[i] = mt_vec3_dot(normal, normal) > 0 ? facing(normal, side) : eye;
+    prepare_colors(look, &from, facet);
+    prepare_normals(look, &from, eye, facet);
+    const mt_vec3 *n = facet->normals, *c = facet->colors;
+    facet->is_small = false;
+    if (from.size < SMALL_SIZE) {
+        mt_vec3 normal = unit_or(mt_vec3_add(mt_vec3_add(n[0], n[1]), n[2]), eye);
+        double cosine = fmin(fmin(mt_vec3_dot(normal, n[0]), mt_vec3_dot(normal, n[1])), mt_vec3_dot(normal, n[2]));
+        facet->is_small = from.size < TINY_SIZE || (facet->one_color && cosine >= SMALL_COSINE);
+        mt_vec3 color = mt_vec3_scale(mt_vec3_add(mt_vec3_add(c[0], c[1]), c[2]), 1.0 / 3.0);
+        facet->light = mt_shade(&look->lighting, normal, eye, facet->one_color ? c[0] : color);
     }
-    facet->one_normal = same(facet->normals[0], facet->normals[1]) && same(facet->normals[0], facet->normals[2]);
 }
 
 static double clamp_unit(double x)
@@ -115,9 +154,7 @@ mt_vec3 mt_facet_shade(const mt_look *look, const mt_facet *facet, double x, dou
     mt_vec3 eye = toward_eye(look, x, y);
     mt_vec3 normal = facet->normals[0];
     if (!facet->one_normal) {
-        mt_vec3 sum = weigh(facet->normals, weights);
-        double length = mt_vec3_length(sum);
-        normal = length > 0 ? mt_vec3_scale(sum, 1.0 / length) : eye;
+        normal = unit_or(weigh(facet->normals, weights), eye);
     }
     mt_vec3 color = facet->one_color ? facet->colors[0] : weigh(facet->colors, weights);
     return mt_shade(&look->lighting, normal, eye, color);

@@ -11,13 +11,21 @@
 #define VERTEX_BLOCK 65536
 #define FACE_BLOCK 65536
 
+typedef struct finite_task {
+    mt_model *model;
+    bool *found; /* per block: a vertex that is not finite */
+} finite_task;
+
 static void find_finite(void *user, uint64_t begin, uint64_t end)
 {
-    mt_model *model = (mt_model *)user;
+    const finite_task *task = (const finite_task *)user;
+    bool all = true;
     for (uint64_t vertex = begin; vertex < end; vertex++) {
-        bool finite = mt_vec3_is_finite(mt_mesh_position(model->mesh, (mt_index)vertex));
-        model->flags[vertex] = finite ? MT_VERTEX_FINITE : 0;
+        bool finite = mt_vec3_is_finite(mt_mesh_position(task->model->mesh, (mt_index)vertex));
+        task->model->flags[vertex] = finite ? MT_VERTEX_FINITE : 0;
+        all = all && finite;
     }
+    task->found[begin / VERTEX_BLOCK] = !all;
 }
 
 /* Threads may mark the same vertex; all of them store the same value. */
@@ -31,45 +39,79 @@ static bool is_finite(const mt_model *model, mt_index vertex)
     return __atomic_load_n(&model->flags[vertex], __ATOMIC_RELAXED) != 0;
 }
 
+static bool is_whole(const mt_model *model, mt_index face)
+{
+    mt_index last = mt_mesh_face_end(model->mesh, face);
+    for (mt_index corner = mt_mesh_face_begin(model->mesh, face); corner < last; corner++) {
+        if (!is_finite(model, model->mesh->corner_vertices[corner])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static void mark_faces(void *user, uint64_t begin, uint64_t end)
 {
     mt_model *model = (mt_model *)user;
     const mt_mesh *mesh = model->mesh;
     for (uint64_t f = begin; f < end; f++) {
-        mt_index face = (mt_index)f, last = mt_mesh_face_end(mesh, face);
-        bool finite = true;
-        for (mt_index corner = mt_mesh_face_begin(mesh, face); corner < last; corner++) {
-            finite = finite && is_finite(model, mesh->corner_vertices[corner]);
-        }
-        for (mt_index corner = mt_mesh_face_begin(mesh, face); finite && corner < last; corner++) {
-            mark_drawn(model, mesh->corner_vertices[corner]);
-        }
-        if (!finite) {
+        mt_index face = (mt_index)f;
+        if (model->skipped_faces && !is_whole(model, face)) {
             model->skipped_faces[face] = 1;
+            continue;
+        }
+        mt_index last = mt_mesh_face_end(mesh, face);
+        for (mt_index corner = mt_mesh_face_begin(mesh, face); corner < last; corner++) {
+            mark_drawn(model, mesh->corner_vertices[corner]);
         }
     }
 }
 
-static mt_status mark_elements(mt_context *context, mt_model *model)
+static mt_status flag_finite(mt_context *context, mt_model *model, bool *all_finite)
 {
-    const mt_mesh *mesh = model->mesh;
-    model->flags = (unsigned char *)mt_allocate_array(context, mesh->vertex_count, 1);
-    model->skipped_faces = (unsigned char *)mt_allocate_array_zeroed(context, mesh->face_count, 1);
-    if (!model->flags || !model->skipped_faces) {
+    mt_index vertex_count = model->mesh->vertex_count;
+    size_t block_count = ((size_t)vertex_count + VERTEX_BLOCK - 1) / VERTEX_BLOCK;
+    model->flags = (unsigned char *)mt_allocate_array(context, vertex_count, 1);
+    bool *found = (bool *)mt_allocate_array(context, block_count, sizeof *found);
+    if (!model->flags || !found) {
+        mt_free(context, found);
         return mt_context_error(context)->status;
     }
-    mt_parallel_for(context, mesh->vertex_count, VERTEX_BLOCK, find_finite, model);
-    mt_parallel_for(context, mesh->face_count, FACE_BLOCK, mark_faces, model);
-    mt_index skipped = 0;
-    for (mt_index face = 0; face < mesh->face_count; face++) {
-        skipped += model->skipped_faces[face];
+    finite_task task = {model, found};
+    mt_parallel_for(context, vertex_count, VERTEX_BLOCK, find_finite, &task);
+    *all_finite = true;
+    for (size_t block = 0; block < block_count; block++) {
+        *all_finite = *all_finite && !found[block];
     }
-    if (skipped == 0) {
-        mt_free(context, model->skipped_faces);
-        model->skipped_faces = NULL;
-    } else {
+    mt_free(context, found);
+    return MT_OK;
+}
+
+static mt_index count_skipped(const mt_model *model)
+{
+    mt_index count = 0;
+    for (mt_index face = 0; model->skipped_faces && face < model->mesh->face_count; face++) {
+        count += model->skipped_faces[face];
+    }
+    return count;
+}
+
+static mt_status mark_elements(mt_context *context, mt_model *model)
+{
+    bool all_finite = true;
+    mt_status status = flag_finite(context, model, &all_finite);
+    if (status == MT_OK && !all_finite) {
+        model->skipped_faces = (unsigned char *)mt_allocate_array_zeroed(context, model->mesh->face_count, 1);
+        status = model->skipped_faces ? MT_OK : mt_context_error(context)->status;
+    }
+    if (status != MT_OK) {
+        return status;
+    }
+    mt_parallel_for(context, model->mesh->face_count, FACE_BLOCK, mark_faces, model);
+    mt_index skipped = count_skipped(model);
+    if (skipped > 0) {
         mt_warn(context, "%u of %u faces are not drawn: they have a vertex with a NaN or infinite coordinate", skipped,
-                mesh->face_count);
+                model->mesh->face_count);
     }
     return MT_OK;
 }
@@ -189,15 +231,6 @@ static mt_status measure(mt_context *context, mt_model *model)
     set_scales(model, task.lows[0], task.highs[0]);
     mt_free(context, blocks);
     return MT_OK;
-}
-
-static mt_index count_skipped(const mt_model *model)
-{
-    mt_index count = 0;
-    for (mt_index face = 0; model->skipped_faces && face < model->mesh->face_count; face++) {
-        count += model->skipped_faces[face];
-    }
-    return count;
 }
 
 static mt_status build(mt_context *context, mt_model *model)

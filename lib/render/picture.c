@@ -117,6 +117,9 @@ static void clear(mt_tile *tile)
         tile->depths[lane] = 0;
         tile->numbers[lane] = MT_NONE;
     }
+    for (size_t pixel = 0; pixel < (size_t)tile->height * MT_TILE_SIZE; pixel++) {
+        tile->floors[pixel] = 0;
+    }
     for (size_t lane = 0; tile->marks && lane < count; lane++) {
         tile->marks[lane] = MT_NONE;
     }
@@ -157,11 +160,12 @@ static void draw_tiles(void *user, uint64_t begin, uint64_t end)
     size_t lanes = mt_tile_lane_count(lane_count);
     uint64_t layers = picture->marks.count > 0 ? 3 : 2;
     mt_tile tile = {.lane_count = lane_count};
-    tile.depths = (float *)mt_try_allocate(task->context, layers * lanes * 4);
+    tile.depths = (float *)mt_try_allocate(task->context, (layers * lanes + MT_TILE_SIZE * MT_TILE_SIZE) * 4);
     mt_facet_cache *cache = (mt_facet_cache *)mt_try_allocate(task->context, sizeof *cache);
     if (tile.depths && cache) {
         tile.numbers = (mt_index *)(void *)(tile.depths + lanes);
         tile.marks = layers == 3 ? tile.numbers + lanes : NULL;
+        tile.floors = tile.depths + layers * lanes;
         mt_facet_cache_clear(cache);
     }
     for (uint64_t i = begin; i < end; i++) {

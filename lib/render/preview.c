@@ -201,7 +201,7 @@ static mt_status run(mt_context *context, const mt_mesh *mesh, job *j, mt_image 
     }
     if (status == MT_OK) {
         uint32_t channels = j->options->background == MT_BACKGROUND_TRANSPARENT ? 4 : 3;
-        status = mt_image_create(context, j->frame.camera.width, j->frame.camera.height, channels, image);
+        status = mt_image_create_unfilled(context, j->frame.camera.width, j->frame.camera.height, channels, image);
     }
     if (status == MT_OK) {
         (*image)->space = MT_COLOR_LINEAR;

@@ -2,16 +2,10 @@
  * at their middle; groups are taken in the order of their first sample, so the sum is always the same. */
 #include "lib/render/resolve.h"
 
+#include "lib/render/vectors.h"
+
 /* How much of a mark shines through what hides it. */
 #define HIDDEN_MARK 0.3
-
-/* Samples of a pixel that show the same thing. */
-typedef struct group {
-    mt_index number;
-    unsigned sample_count;
-    double weight; /* samples, less where a mark covers them */
-    double x, y;   /* sums of the samples' offsets */
-} group;
 
 /* A sum of light; alpha counts what of the pixel is covered. */
 typedef struct light_sum {
@@ -26,57 +20,87 @@ void mt_facet_cache_clear(mt_facet_cache *cache)
     }
 }
 
-static void add(light_sum *sum, mt_vec3 light, double weight)
+static inline void add(light_sum *sum, mt_vec3 light, double weight)
 {
-    sum->light = mt_vec3_add(sum->light, mt_vec3_scale(light, weight));
+    sum->light.x += light.x * weight;
+    sum->light.y += light.y * weight;
+    sum->light.z += light.z * weight;
     sum->alpha += weight;
 }
 
-static mt_vec3 stroke_light(const mt_picture *picture, mt_index number, double x, double y)
+/* The middle of some of a pixel's samples, in steps. */
+typedef struct middle {
+    double x, y;
+} middle;
+
+static middle middle_of(const mt_frame *frame, uint64_t samples, uint32_t x, uint32_t y)
+{
+    double sum_x = 0, sum_y = 0, count = 0;
+    for (; samples; samples &= samples - 1) {
+        int sample = __builtin_ctzll(samples);
+        sum_x += (double)frame->sample_x[sample];
+        sum_y += (double)frame->sample_y[sample];
+        count++;
+    }
+    return (middle){(double)x * MT_STEPS + sum_x / count, (double)y * MT_STEPS + sum_y / count};
+}
+
+static mt_vec3 stroke_light(const mt_picture *picture, mt_index number, middle at)
 {
     const mt_stroke *stroke = &picture->strokes.strokes[number];
     if (stroke->a != stroke->b) {
         return picture->look->wire_color;
     }
-    return mt_dot_shade(picture->look, stroke->a, picture->strokes.dot_radius * picture->frame->unit, x, y);
+    return mt_dot_shade(picture->look, stroke->a, picture->strokes.dot_radius * MT_STEPS, at.x, at.y);
 }
 
-static mt_vec3 light_of(const mt_picture *picture, mt_facet_cache *cache, mt_index number, double x, double y)
+/* The light of what `number` stands for, seen through some samples of a pixel. */
+static inline mt_vec3 light_of(const mt_picture *picture, mt_facet_cache *cache, mt_index number, uint64_t samples,
+                               uint32_t x, uint32_t y)
 {
     mt_index triangle_count = picture->frame->model->triangulation.triangle_count;
     if (number >= triangle_count) {
-        return stroke_light(picture, number - triangle_count, x, y);
+        return stroke_light(picture, number - triangle_count, middle_of(picture->frame, samples, x, y));
     }
     mt_facet *facet = &cache->facets[number % MT_FACET_CACHE_SIZE];
     if (facet->triangle != number) {
         mt_facet_prepare(picture->look, number, facet);
     }
-    return mt_facet_shade(picture->look, facet, x, y);
+    if (facet->is_small) {
+        return facet->light;
+    }
+    middle at = middle_of(picture->frame, samples, x, y);
+    return mt_facet_shade(picture->look, facet, at.x, at.y);
 }
 
-static double mark_opacity(mt_index mark)
+static inline double mark_opacity(mt_index mark)
 {
     return mark == MT_NONE ? 0.0 : (mark & 1u) ? HIDDEN_MARK : 1.0;
 }
 
-static unsigned find_groups(const mt_frame *frame, const mt_index *numbers, const mt_index *marks, group *groups)
+/* Samples, each less the part of it that a mark covers. */
+static double weight_of(const mt_index *marks, uint64_t samples)
 {
-    unsigned count = 0, last = 0;
-    for (unsigned sample = 0; sample < frame->sample_count; sample++) {
-        mt_index number = numbers[sample];
-        if (count == 0 || groups[last].number != number) {
-            for (last = 0; last < count && groups[last].number != number; last++) {
-            }
-            if (last == count) {
-                groups[count++] = (group){.number = number};
-            }
-        }
-        groups[last].sample_count++;
-        groups[last].weight += marks ? 1.0 - mark_opacity(marks[sample]) : 1.0;
-        groups[last].x += frame->sample_x[sample];
-        groups[last].y += frame->sample_y[sample];
+    double weight = 0;
+    for (; samples; samples &= samples - 1) {
+        weight += 1.0 - mark_opacity(marks[__builtin_ctzll(samples)]);
     }
-    return count;
+    return weight;
+}
+
+/* A bit for each sample that shows `number`. */
+static inline uint64_t samples_of(const mt_index *numbers, unsigned group_count, mt_index number)
+{
+    const vector8i bits = {1, 2, 4, 8, 16, 32, 64, 128};
+    uint64_t samples = 0;
+    for (unsigned g = 0; g < group_count; g++) {
+        vector8i here = (*(const vector8i *)(numbers + MT_GROUP_SIZE * g) == (int32_t)number) & bits;
+        vector4i half =
+            __builtin_shufflevector(here, here, 0, 1, 2, 3) | __builtin_shufflevector(here, here, 4, 5, 6, 7);
+        int32_t byte = (half[0] | half[1]) | (half[2] | half[3]);
+        samples |= (uint64_t)(uint32_t)byte << (MT_GROUP_SIZE * g);
+    }
+    return samples;
 }
 
 static void add_marks(const mt_picture *picture, const mt_index *marks, light_sum *sum)
@@ -114,22 +138,23 @@ static void store(const mt_picture *picture, uint32_t x, uint32_t y, light_sum s
 }
 
 /* Returns the number of samples that show the mesh. */
-static unsigned resolve_pixel(const mt_picture *picture, const mt_tile *tile, mt_facet_cache *cache, uint32_t x,
-                              uint32_t y, light_sum *sum)
+static inline unsigned resolve_pixel(const mt_picture *picture, const mt_tile *tile, mt_facet_cache *cache, uint32_t x,
+                                     uint32_t y, light_sum *sum)
 {
-    const mt_frame *frame = picture->frame;
+    unsigned count = picture->frame->sample_count, group_count = tile->lane_count / MT_GROUP_SIZE, covered = 0;
     size_t lane = mt_tile_lane(tile, x, y);
-    const mt_index *marks = tile->marks ? tile->marks + lane : NULL;
-    group groups[MT_MAXIMUM_SAMPLES];
-    unsigned count = find_groups(frame, tile->numbers + lane, marks, groups), covered = 0;
-    for (unsigned i = 0; i < count; i++) {
-        if (groups[i].number == MT_NONE) {
-            continue;
+    const mt_index *numbers = tile->numbers + lane, *marks = tile->marks ? tile->marks + lane : NULL;
+    uint64_t left = UINT64_MAX >> (64 - count);
+    while (left) {
+        mt_index number = numbers[__builtin_ctzll(left)];
+        uint64_t samples = samples_of(numbers, group_count, number) & left;
+        left &= ~samples;
+        if (number != MT_NONE) {
+            unsigned sample_count = (unsigned)__builtin_popcountll(samples);
+            double weight = marks ? weight_of(marks, samples) : sample_count;
+            add(sum, light_of(picture, cache, number, samples, x, y), weight);
+            covered += sample_count;
         }
-        double per_sample = 1.0 / groups[i].sample_count;
-        double at_x = x * frame->unit + groups[i].x * per_sample, at_y = y * frame->unit + groups[i].y * per_sample;
-        add(sum, light_of(picture, cache, groups[i].number, at_x, at_y), groups[i].weight);
-        covered += groups[i].sample_count;
     }
     if (marks) {
         add_marks(picture, marks, sum);
@@ -137,6 +162,7 @@ static unsigned resolve_pixel(const mt_picture *picture, const mt_tile *tile, mt
     return covered;
 }
 
+MT_CLONES
 uint64_t mt_resolve_tile(const mt_picture *picture, const mt_tile *tile, mt_facet_cache *cache)
 {
     uint64_t covered = 0;

@@ -5,7 +5,7 @@
 #include "lib/render/picture.h"
 
 /* Triangles prepared lately: a triangle is met again in the next pixel or the next row. */
-#define MT_FACET_CACHE_SIZE 128
+#define MT_FACET_CACHE_SIZE 256
 
 typedef struct mt_facet_cache {
     mt_facet facets[MT_FACET_CACHE_SIZE]; /* a triangle's place is its number modulo the size */

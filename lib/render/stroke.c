@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+typedef int64_t vector8l __attribute__((vector_size(64), may_alias));
+
 /* A segment in steps of the grid. */
 typedef struct segment {
     double x, y, along_x, along_y;
@@ -22,7 +24,7 @@ static inline segment segment_of(const mt_stroke_set *set, mt_index number)
     double length_squared = s.along_x * s.along_x + s.along_y * s.along_y;
     s.per_length_squared = length_squared > 0 ? 1.0 / length_squared : 0.0;
     bool is_dot = set->strokes[number].a == set->strokes[number].b;
-    s.radius = (is_dot ? set->dot_radius : set->line_radius) * set->frame->unit;
+    s.radius = (is_dot ? set->dot_radius : set->line_radius) * MT_STEPS;
     s.depth = a->depth * set->nearness;
     s.depth_along = (b->depth - a->depth) * set->nearness;
     return s;
@@ -33,14 +35,13 @@ typedef struct pixel_box {
     int64_t first_x, first_y, last_x, last_y;
 } pixel_box;
 
-static inline pixel_box box_of(const mt_stroke_set *set, const segment *s)
+static inline pixel_box box_of(const segment *s)
 {
-    double unit = set->frame->unit;
     pixel_box box;
-    box.first_x = (int64_t)floor((s->x + fmin(s->along_x, 0.0) - s->radius) / unit);
-    box.first_y = (int64_t)floor((s->y + fmin(s->along_y, 0.0) - s->radius) / unit);
-    box.last_x = (int64_t)floor((s->x + fmax(s->along_x, 0.0) + s->radius) / unit);
-    box.last_y = (int64_t)floor((s->y + fmax(s->along_y, 0.0) + s->radius) / unit);
+    box.first_x = (int64_t)floor((s->x + fmin(s->along_x, 0.0) - s->radius) / MT_STEPS);
+    box.first_y = (int64_t)floor((s->y + fmin(s->along_y, 0.0) - s->radius) / MT_STEPS);
+    box.last_x = (int64_t)floor((s->x + fmax(s->along_x, 0.0) + s->radius) / MT_STEPS);
+    box.last_y = (int64_t)floor((s->y + fmax(s->along_y, 0.0) + s->radius) / MT_STEPS);
     return box;
 }
 
@@ -52,7 +53,7 @@ mt_tile_range mt_stroke_range(const mt_stroke_set *set, mt_index stroke)
         return empty;
     }
     segment s = segment_of(set, stroke);
-    pixel_box box = box_of(set, &s);
+    pixel_box box = box_of(&s);
     return mt_tile_range_of(box.first_x, box.first_y, box.last_x, box.last_y, set->frame->camera.width,
                             set->frame->camera.height);
 }
@@ -75,33 +76,36 @@ static inline bool is_near(const segment *s, double x, double y, double side)
 bool mt_stroke_touches(const mt_stroke_set *set, mt_index stroke, uint32_t tile_x, uint32_t tile_y)
 {
     segment s = segment_of(set, stroke);
-    double size = MT_TILE_SIZE * set->frame->unit;
+    double size = MT_TILE_SIZE * MT_STEPS;
     return is_near(&s, (tile_x + 0.5) * size, (tile_y + 0.5) * size, size);
 }
 
 /* The samples of a group that the segment covers, and its depth at each. */
-static inline vector4i cover(const segment *s, vector4d x, vector4d y, vector4f *depth)
+static inline void cover(const segment *s, double left, double top, const vector8f *xs, const vector8f *ys,
+                         vector8i *inside, vector8f *depth)
 {
-    vector4d t = ((x - s->x) * s->along_x + (y - s->y) * s->along_y) * s->per_length_squared;
-    const vector4d one = {1.0, 1.0, 1.0, 1.0};
-    vector4l under = t > 0.0, over = t > 1.0;
-    t = (vector4d)((((vector4l)t & ~over) | ((vector4l)one & over)) & under);
-    vector4d dx = s->x + t * s->along_x - x, dy = s->y + t * s->along_y - y;
-    *depth = __builtin_convertvector(s->depth + t * s->depth_along, vector4f);
-    return __builtin_convertvector(dx * dx + dy * dy <= s->radius * s->radius, vector4i);
+    vector8d x = left + __builtin_convertvector(*xs, vector8d), y = top + __builtin_convertvector(*ys, vector8d);
+    vector8d t = ((x - s->x) * s->along_x + (y - s->y) * s->along_y) * s->per_length_squared;
+    const vector8d one = 1.0 - (vector8d){0};
+    vector8l positive = t > 0.0, over = t > 1.0;
+    t = (vector8d)((((vector8l)t & ~over) | ((vector8l)one & over)) & positive);
+    vector8d dx = s->x + t * s->along_x - x, dy = s->y + t * s->along_y - y;
+    *depth = __builtin_convertvector(s->depth + t * s->depth_along, vector8f);
+    *inside = __builtin_convertvector(dx * dx + dy * dy <= s->radius * s->radius, vector8i);
 }
 
 static inline void draw_pixel(const mt_frame *frame, const segment *s, double left, double top, int32_t number,
                               float *depths, mt_index *numbers)
 {
-    const vector4d *xs = (const vector4d *)frame->sample_x, *ys = (const vector4d *)frame->sample_y;
-    for (unsigned g = 0; g < frame->lane_count / 4; g++) {
-        vector4f near;
-        vector4i inside = cover(s, left + xs[g], top + ys[g], &near);
-        vector4f *old = (vector4f *)(depths + 4 * g);
-        vector4i *old_number = (vector4i *)(numbers + 4 * g);
-        vector4i wins = inside & (near > *old);
-        *old = (vector4f)(((vector4i)near & wins) | ((vector4i)*old & ~wins));
+    const vector8f *xs = (const vector8f *)frame->sample_x, *ys = (const vector8f *)frame->sample_y;
+    for (unsigned g = 0; g < frame->lane_count / MT_GROUP_SIZE; g++) {
+        vector8f near;
+        vector8i inside;
+        cover(s, left, top, &xs[g], &ys[g], &inside, &near);
+        vector8f *old = (vector8f *)(depths + MT_GROUP_SIZE * g);
+        vector8i *old_number = (vector8i *)(numbers + MT_GROUP_SIZE * g);
+        vector8i wins = inside & (near > *old);
+        *old = (vector8f)(((vector8i)near & wins) | ((vector8i)*old & ~wins));
         *old_number = (number & wins) | (*old_number & ~wins);
     }
 }
@@ -109,16 +113,17 @@ static inline void draw_pixel(const mt_frame *frame, const segment *s, double le
 static inline void mark_pixel(const mt_frame *frame, const segment *s, double left, double top, int32_t number,
                               const float *depths, mt_index *marks)
 {
-    const vector4d *xs = (const vector4d *)frame->sample_x, *ys = (const vector4d *)frame->sample_y;
-    for (unsigned g = 0; g < frame->lane_count / 4; g++) {
-        vector4f near;
-        vector4i inside = cover(s, left + xs[g], top + ys[g], &near);
-        vector4i visible = near >= *(const vector4f *)(depths + 4 * g);
-        vector4i *old = (vector4i *)(marks + 4 * g);
+    const vector8f *xs = (const vector8f *)frame->sample_x, *ys = (const vector8f *)frame->sample_y;
+    for (unsigned g = 0; g < frame->lane_count / MT_GROUP_SIZE; g++) {
+        vector8f near;
+        vector8i inside;
+        cover(s, left, top, &xs[g], &ys[g], &inside, &near);
+        vector8i visible = near >= *(const vector8f *)(depths + MT_GROUP_SIZE * g);
+        vector8i *old = (vector8i *)(marks + MT_GROUP_SIZE * g);
         /* The low bit is set for a hidden mark and, MT_NONE being all ones, for none. */
-        vector4i open = ((*old & 1) == 1) & (visible | (*old == -1));
-        vector4i wins = inside & open;
-        vector4i value = 2 * number + (1 & ~visible);
+        vector8i open = ((*old & 1) == 1) & (visible | (*old == -1));
+        vector8i wins = inside & open;
+        vector8i value = 2 * number + (1 & ~visible);
         *old = (value & wins) | (*old & ~wins);
     }
 }
@@ -138,11 +143,11 @@ static inline void draw_stroke(const mt_stroke_set *set, mt_tile *tile, mt_index
 {
     const mt_frame *frame = set->frame;
     segment s = segment_of(set, stroke);
-    pixel_box box = clip(box_of(set, &s), tile);
+    pixel_box box = clip(box_of(&s), tile);
     for (int64_t y = box.first_y; y <= box.last_y; y++) {
         for (int64_t x = box.first_x; x <= box.last_x; x++) {
-            double left = (double)x * frame->unit, top = (double)y * frame->unit;
-            if (!is_near(&s, left + 0.5 * frame->unit, top + 0.5 * frame->unit, frame->unit)) {
+            double left = (double)x * MT_STEPS, top = (double)y * MT_STEPS;
+            if (!is_near(&s, left + 0.5 * MT_STEPS, top + 0.5 * MT_STEPS, MT_STEPS)) {
                 continue;
             }
             size_t lane = mt_tile_lane(tile, (uint32_t)x, (uint32_t)y);

@@ -21,9 +21,12 @@
 
 #include <stdint.h>
 
-typedef double vector4d __attribute__((vector_size(32), may_alias));
-typedef int64_t vector4l __attribute__((vector_size(32), may_alias));
-typedef float vector4f __attribute__((vector_size(16), may_alias));
+/* Samples of a pixel come in groups of 8. */
+#define MT_GROUP_SIZE 8
+
+typedef double vector8d __attribute__((vector_size(64), may_alias));
+typedef float vector8f __attribute__((vector_size(32), may_alias));
 typedef int32_t vector4i __attribute__((vector_size(16), may_alias));
+typedef int32_t vector8i __attribute__((vector_size(32), may_alias));
 
 #endif

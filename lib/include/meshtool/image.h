@@ -24,6 +24,9 @@ typedef struct mt_image {
 /* A picture of zeros, MT_COLOR_STORED. MT_ERROR_ARGUMENT for a size of 0 or channels other than 1, 3, 4;
  * MT_ERROR_TOO_LARGE when the bytes overflow, MT_ERROR_OUT_OF_MEMORY. */
 mt_status mt_image_create(mt_context *context, uint32_t width, uint32_t height, uint32_t channel_count, mt_image **out);
+/* The same with pixels that the caller fills, all of them. */
+mt_status mt_image_create_unfilled(mt_context *context, uint32_t width, uint32_t height, uint32_t channel_count,
+                                   mt_image **out);
 void mt_image_destroy(mt_context *context, mt_image *image); /* NULL is allowed */
 
 static inline float *mt_image_pixel(const mt_image *image, uint32_t x, uint32_t y)
