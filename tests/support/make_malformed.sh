@@ -14,7 +14,7 @@ be32() { local w; for w in "$@"; do printf "\\x$(printf %02x $((w >> 24 & 255)))
 le16() { local w; for w in "$@"; do printf "\\x$(printf %02x $((w & 255)))\\x$(printf %02x $((w >> 8 & 255)))"; done; }
 byte() { local w; for w in "$@"; do printf "\\x$(printf %02x $((w & 255)))"; done; }
 # The floats used, as bits.
-zero=0x00000000 one=0x3f800000 nan=0x7fc00000
+zero=0x00000000 one=0x3f800000 minus=0xbf800000 nan=0x7fc00000
 
 # ---- OBJ ----
 triangle=$'v 0 0 0\nv 1 0 0\nv 0 1 0\n'
@@ -140,7 +140,7 @@ binary_header '' 0 | stl binary_zero_facets
 { binary_header '' 2147483648; binary_facet $zero 0; } | stl count_of_billions
 { binary_header '' 1; binary_facet $zero 0; printf 'junk'; } | stl bytes_after_the_last
 { binary_header '' 1; binary_facet $nan 0; } | stl nan_facet
-{ binary_header '' 2; binary_facet $zero 7; binary_facet $one 65535; } | stl attribute_bytes
+{ binary_header '' 2; binary_facet $zero 7; binary_facet $minus 65535; } | stl attribute_bytes
 printf 'neither text nor binary' | stl neither
 { printf 'solid a\n'; plain | sed 's/endloop/vertex 1 1 0\nendloop/'; printf 'endsolid a\n'; } | stl four_vertices
 { printf 'solid a\n'; plain | sed '/0 1 0$/d'; printf 'endsolid a\n'; } | stl two_vertices

@@ -165,7 +165,7 @@ static void test_every_file_has_a_row(void **state)
     check_folder_is_listed(&table, "meshes", "non_manifold");
     test_csv_release(&table);
     table = test_csv_read("meshes/malformed/manifest.csv");
-    static const char *const formats[] = {"obj", "off", "ply"};
+    static const char *const formats[] = {"obj", "off", "ply", "stl"};
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
         check_folder_is_listed(&table, "meshes/malformed", formats[i]);
     }
