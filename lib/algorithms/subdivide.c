@@ -99,46 +99,6 @@ static mt_status create_result(mt_context *context, const mt_subdivide_state *st
     return MT_OK;
 }
 
-/* Refines one field to the next level: into the result where it can, else into memory of its own. */
-static mt_status refine_field(mt_context *context, mt_subdivide_state *state, mt_subdivide_field *field,
-                              const mt_mesh *result)
-{
-    const mt_subdivide_topology *topology = &state->topologies[field->topology];
-    void *target = result ? mt_subdivide_field_target(state, field, result) : NULL;
-    void *owned = NULL;
-    if (!target) {
-        size_t size = field->component_count * mt_type_size(field->type);
-        target = owned = mt_allocate_array(context, mt_subdivide_child_vertex_count(topology), size);
-    }
-    if (!target) {
-        return mt_context_error(context)->status;
-    }
-    mt_subdivide_values(context, topology, field->rule, field->type, field->component_count, field->values, target);
-    mt_free(context, field->owned);
-    field->values = target;
-    field->owned = owned;
-    return MT_OK;
-}
-
-static mt_status refine_topology(mt_context *context, mt_subdivide_topology *topology, mt_index *last_corners,
-                                 mt_subdivide_topology *child)
-{
-    mt_index *corners = last_corners;
-    if (!corners) {
-        corners = mt_allocate_array(context, 4 * (uint64_t)topology->corner_count, sizeof *corners);
-    }
-    if (!corners) {
-        return mt_context_error(context)->status;
-    }
-    mt_status status = mt_subdivide_topology_refine(context, topology, corners, last_corners != NULL, child);
-    if (status != MT_OK) {
-        mt_free(context, last_corners ? NULL : corners);
-    } else if (!last_corners) {
-        child->owned[3] = corners;
-    }
-    return status;
-}
-
 /* Of a topology the array of the result that its last corners go to. */
 static mt_index *last_corners_of(const mt_subdivide_state *state, mt_index topology, const mt_mesh *result)
 {
@@ -150,31 +110,120 @@ static mt_index *last_corners_of(const mt_subdivide_state *state, mt_index topol
     return result->corner_vertices;
 }
 
-/* All of one level; with `result` the last one. */
-static mt_status refine_level(mt_context *context, mt_subdivide_state *state, const mt_mesh *result)
+/* One level in the making. */
+typedef struct level_plan {
+    mt_subdivide_pass first, second;
+    mt_subdivide_topology *children;
+    void **targets; /* per field its next values */
+    void **owned;   /* those of them that are not the result's */
+} level_plan;
+
+static mt_status create_plan(mt_context *context, const mt_subdivide_state *state, level_plan *plan)
 {
-    mt_status status = MT_OK;
-    for (mt_index i = 0; status == MT_OK && i < state->field_count; i++) {
-        status = refine_field(context, state, &state->fields[i], result);
+    size_t loop_count = 2 * (size_t)state->topology_count;
+    for (mt_index i = 0; i < state->field_count; i++) {
+        loop_count += mt_subdivide_values_loop_count(state->fields[i].component_count);
     }
-    if (status == MT_OK) {
-        status = mt_subdivide_creases_refine(context, state);
+    mt_index face_count = state->topologies[0].face_count;
+    plan->children = mt_allocate_array_zeroed(context, state->topology_count, sizeof *plan->children);
+    plan->targets = mt_allocate_array_zeroed(context, state->field_count, sizeof *plan->targets);
+    plan->owned = mt_allocate_array_zeroed(context, state->field_count, sizeof *plan->owned);
+    bool complete = plan->children && plan->targets && plan->owned &&
+                    mt_subdivide_pass_init(context, face_count, loop_count, &plan->first) == MT_OK &&
+                    mt_subdivide_pass_init(context, face_count, loop_count, &plan->second) == MT_OK;
+    return complete ? MT_OK : mt_context_error(context)->status;
+}
+
+/* Of a plan that was carried out only the shell is left. */
+static void release_plan(mt_context *context, const mt_subdivide_state *state, level_plan *plan)
+{
+    for (mt_index i = 0; plan->children && i < state->topology_count; i++) {
+        mt_subdivide_topology_release(context, &plan->children[i]);
     }
-    mt_subdivide_topology *children =
-        mt_allocate_array_zeroed(context, state->topology_count, sizeof(mt_subdivide_topology));
-    if (status != MT_OK || !children) {
-        mt_free(context, children);
-        return status != MT_OK ? status : mt_context_error(context)->status;
+    for (mt_index i = 0; plan->owned && i < state->field_count; i++) {
+        mt_free(context, plan->owned[i]);
     }
-    for (mt_index i = 0; status == MT_OK && i < state->topology_count; i++) {
-        mt_index *last_corners = result ? last_corners_of(state, i, result) : NULL;
-        status = refine_topology(context, &state->topologies[i], last_corners, &children[i]);
+    mt_free(context, plan->children);
+    mt_free(context, plan->targets);
+    mt_free(context, plan->owned);
+    mt_subdivide_pass_release(context, &plan->first);
+    mt_subdivide_pass_release(context, &plan->second);
+}
+
+/* The next values of a field: in the result where they can, else in memory of their own. */
+static mt_status plan_field(mt_context *context, const mt_subdivide_state *state, mt_index number,
+                            const mt_mesh *result, level_plan *plan)
+{
+    const mt_subdivide_field *field = &state->fields[number];
+    const mt_subdivide_topology *topology = &state->topologies[field->topology];
+    void *target = result ? mt_subdivide_field_target(state, field, result) : NULL;
+    if (!target) {
+        size_t size = field->component_count * mt_type_size(field->type);
+        target = mt_allocate_array(context, mt_subdivide_child_vertex_count(topology), size);
+        plan->owned[number] = target;
+    }
+    if (!target) {
+        return mt_context_error(context)->status;
+    }
+    plan->targets[number] = target;
+    mt_subdivide_values_plan(topology, field->rule, field->type, field->component_count, field->values, target,
+                             &plan->first, &plan->second);
+    return MT_OK;
+}
+
+static mt_status plan_topology(mt_context *context, const mt_subdivide_state *state, mt_index number,
+                               const mt_mesh *result, level_plan *plan)
+{
+    mt_subdivide_topology *topology = &state->topologies[number], *child = &plan->children[number];
+    mt_index *corners = result ? last_corners_of(state, number, result)
+                               : mt_allocate_array(context, 4 * (uint64_t)topology->corner_count, sizeof *corners);
+    if (!corners) {
+        return mt_context_error(context)->status;
+    }
+    mt_status status = mt_subdivide_topology_plan(context, topology, corners, result != NULL, child, &plan->second);
+    if (!result) {
+        child->owned[3] = corners;
+    }
+    return status;
+}
+
+/* Puts the next level in the place of this one. */
+static void advance_state(mt_context *context, mt_subdivide_state *state, level_plan *plan)
+{
+    for (mt_index i = 0; i < state->field_count; i++) {
+        mt_free(context, state->fields[i].owned);
+        state->fields[i].owned = plan->owned[i];
+        state->fields[i].values = plan->targets[i];
+        plan->owned[i] = NULL;
     }
     for (mt_index i = 0; i < state->topology_count; i++) {
         mt_subdivide_topology_release(context, &state->topologies[i]);
     }
     mt_free(context, state->topologies);
-    state->topologies = children;
+    state->topologies = plan->children;
+    plan->children = NULL;
+}
+
+/* All of one level; with `result` the last one. */
+static mt_status refine_level(mt_context *context, mt_subdivide_state *state, const mt_mesh *result)
+{
+    level_plan plan = {0};
+    mt_status status = create_plan(context, state, &plan);
+    for (mt_index i = 0; status == MT_OK && i < state->topology_count; i++) {
+        status = plan_topology(context, state, i, result, &plan);
+    }
+    for (mt_index i = 0; status == MT_OK && i < state->field_count; i++) {
+        status = plan_field(context, state, i, result, &plan);
+    }
+    if (status == MT_OK) {
+        status = mt_subdivide_creases_refine(context, state);
+    }
+    if (status == MT_OK) {
+        mt_subdivide_pass_run(context, &plan.first);
+        mt_subdivide_pass_run(context, &plan.second);
+        advance_state(context, state, &plan);
+    }
+    release_plan(context, state, &plan);
     return status;
 }
 

@@ -151,6 +151,41 @@ static mt_index list_faces(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_i
     return count;
 }
 
+/* Whether two faces, which name no vertex twice, have the same vertices in the same or in the opposite order. */
+static bool are_duplicates(const mt_mesh *mesh, mt_index a, mt_index b)
+{
+    mt_index sides = mt_mesh_face_sides(mesh, a);
+    const mt_index *from = mesh->corner_vertices + mt_mesh_face_begin(mesh, a);
+    const mt_index *to = mesh->corner_vertices + mt_mesh_face_begin(mesh, b);
+    mt_index start = 0;
+    if (mt_mesh_face_sides(mesh, b) != sides) {
+        return false;
+    }
+    while (start < sides && to[start] != from[0]) {
+        start++;
+    }
+    if (start == sides) {
+        return false;
+    }
+    bool forward = true, backward = true;
+    for (uint64_t i = 0; i < sides; i++) {
+        forward = forward && from[i] == to[(start + i) % sides];
+        backward = backward && from[i] == to[(start + sides - i) % sides];
+    }
+    return forward || backward;
+}
+
+/* Whether the first face on the edge has a double among the others. */
+static bool edge_has_duplicates(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_index first)
+{
+    mt_index face = mt_mesh_corner_face(mesh, first);
+    mt_index corner = pairs->next_side[first];
+    while (corner != first && !are_duplicates(mesh, face, mt_mesh_corner_face(mesh, corner))) {
+        corner = pairs->next_side[corner];
+    }
+    return corner != first;
+}
+
 static mt_status refuse_non_manifold_edge(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
 {
     char faces[128];
@@ -158,9 +193,11 @@ static mt_status refuse_non_manifold_edge(mt_context *context, const mt_mesh *me
     mt_index corner = first_corner_of_class(mesh, pairs, MT_EDGE_NON_MANIFOLD);
     mt_index count = list_faces(mesh, pairs, corner, faces, sizeof faces);
     side_ends(mesh, corner, ends);
-    return mt_fail(context, MT_ERROR_NOT_MANIFOLD,
-                   "edge %u-%u is shared by %u faces (%s); " NEEDS ": `meshtool repair --split` can separate them",
-                   ends[0], ends[1], count, faces);
+    return mt_fail(context, MT_ERROR_NOT_MANIFOLD, "edge %u-%u is shared by %u faces (%s); " NEEDS ": %s", ends[0],
+                   ends[1], count, faces,
+                   edge_has_duplicates(mesh, pairs, corner)
+                       ? "some of them are the same face, and `meshtool repair --drop-duplicates` can drop those"
+                       : "`meshtool repair --split` can separate them");
 }
 
 static mt_status refuse_misoriented_edge(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)

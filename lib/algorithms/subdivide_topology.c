@@ -8,31 +8,25 @@
  * its first corner c, at 4c and 4n+3: numbers of the next level follow from those of this one without a search.
  *
  * Cost: O(corners); 8 bytes read and 36 written a corner, 16 on the last level. */
-#include "lib/algorithms/subdivide_topology.h"
+#include "lib/algorithms/subdivide_pass.h"
 
 #include <string.h>
 
-typedef struct refine_job {
-    const mt_subdivide_topology *parent;
-    mt_index *vertices, *twins, *edge_ranks; /* of the child; but the first NULL on the last level */
-    mt_index *vertex_corners;                /* made at level 1 alone */
-} refine_job;
-
-MT_SUBDIVIDE_INLINE void link_corner(const refine_job *job, mt_index corner, mt_index next, mt_index previous,
+MT_SUBDIVIDE_INLINE void link_corner(const mt_subdivide_loop *loop, mt_index corner, mt_index next, mt_index previous,
                                      unsigned sides)
 {
-    const mt_subdivide_topology *parent = job->parent;
+    const mt_subdivide_topology *parent = loop->topology;
     mt_index twin = parent->twins[corner], previous_twin = parent->twins[previous];
-    mt_index *twins = job->twins + 4 * (size_t)corner;
+    mt_index *twins = loop->child_twins + 4 * (size_t)corner;
     twins[0] = twin == corner ? 4 * corner : 4 * mt_subdivide_next(parent, twin, sides) + 3;
     twins[1] = 4 * next + 2;
     twins[2] = 4 * previous + 1;
     twins[3] = previous_twin == previous ? 4 * corner + 3 : 4 * previous_twin;
 }
 
-MT_SUBDIVIDE_INLINE void refine_face(const refine_job *job, mt_index face, unsigned sides, bool last)
+MT_SUBDIVIDE_INLINE void refine_face(const mt_subdivide_loop *loop, mt_index face, unsigned sides, bool last)
 {
-    const mt_subdivide_topology *parent = job->parent;
+    const mt_subdivide_topology *parent = loop->topology;
     mt_index begin = mt_subdivide_face_begin(parent, face, sides);
     mt_index end = mt_subdivide_face_begin(parent, face + 1, sides);
     mt_index face_point = parent->vertex_count + face;
@@ -42,21 +36,21 @@ MT_SUBDIVIDE_INLINE void refine_face(const refine_job *job, mt_index face, unsig
     for (mt_index corner = begin; corner < end; corner++) {
         mt_index previous = corner == begin ? end - 1 : corner - 1;
         mt_index edge_point = first_edge_point + mt_subdivide_edge(parent, corner, sides);
-        mt_index *vertices = job->vertices + 4 * (size_t)corner;
+        mt_index *vertices = loop->child_vertices + 4 * (size_t)corner;
         vertices[0] = parent->corner_vertices[corner];
         vertices[1] = edge_point;
         vertices[2] = face_point;
         vertices[3] = previous_point;
         previous_point = edge_point;
         if (!last) {
-            link_corner(job, corner, corner + 1 == end ? begin : corner + 1, previous, sides);
-            job->edge_ranks[corner] = rank;
+            link_corner(loop, corner, corner + 1 == end ? begin : corner + 1, previous, sides);
+            loop->child_ranks[corner] = rank;
             rank += (mt_index)mt_subdivide_is_first(parent, corner) + (mt_index)(corner + 1 != end) +
                     (mt_index)(corner == begin) + (mt_index)mt_subdivide_is_first(parent, previous);
         }
     }
-    if (sides != 4 && !last && job->vertex_corners) {
-        job->vertex_corners[face_point] = 4 * begin + 2;
+    if (sides != 4 && !last && loop->child_vertex_corners) {
+        loop->child_vertex_corners[face_point] = 4 * begin + 2;
     }
 }
 
@@ -76,19 +70,22 @@ FACE_LOOP(refine_quads_last, 4, true)
 
 static void keep_old_vertices(void *user, uint64_t begin, uint64_t end)
 {
-    const refine_job *job = user;
+    const mt_subdivide_loop *loop = user;
     for (uint64_t vertex = begin; vertex < end; vertex++) {
-        mt_index corner = job->parent->vertex_corners[vertex];
-        job->vertex_corners[vertex] = corner == MT_NONE ? MT_NONE : 4 * corner;
+        mt_index corner = loop->topology->vertex_corners[vertex];
+        loop->child_vertex_corners[vertex] = corner == MT_NONE ? MT_NONE : 4 * corner;
     }
 }
 
 /* Level 1 makes the list from level 0's, later levels hand it on. */
-static bool continue_vertex_corners(mt_context *context, mt_subdivide_topology *parent, refine_job *job,
+static bool continue_vertex_corners(mt_context *context, mt_subdivide_topology *parent, mt_subdivide_loop *loop,
                                     mt_subdivide_topology *child)
 {
+    if (!parent->vertex_corners) {
+        return true;
+    }
     child->vertex_corner_count = parent->vertex_corner_count;
-    if (parent->level > 0 || !parent->vertex_corners) {
+    if (parent->level > 0) {
         child->vertex_corners = parent->vertex_corners;
         child->vertex_corner_shift = parent->vertex_corner_shift + 2;
         child->owned[2] = parent->owned[2];
@@ -98,28 +95,29 @@ static bool continue_vertex_corners(mt_context *context, mt_subdivide_topology *
     if (parent->face_size != 4) {
         child->vertex_corner_count += parent->face_count;
     }
-    child->owned[2] = job->vertex_corners = mt_allocate_array(context, child->vertex_corner_count, sizeof(mt_index));
-    child->vertex_corners = job->vertex_corners;
-    return job->vertex_corners != NULL;
+    child->owned[2] = loop->child_vertex_corners =
+        mt_allocate_array(context, child->vertex_corner_count, sizeof(mt_index));
+    child->vertex_corners = loop->child_vertex_corners;
+    return loop->child_vertex_corners != NULL;
 }
 
-static bool allocate_links(mt_context *context, mt_subdivide_topology *parent, refine_job *job,
+static bool allocate_links(mt_context *context, mt_subdivide_topology *parent, mt_subdivide_loop *loop,
                            mt_subdivide_topology *child)
 {
-    child->owned[0] = job->twins = mt_allocate_array(context, child->corner_count, sizeof(mt_index));
-    child->owned[1] = job->edge_ranks = mt_allocate_array(context, child->face_count, sizeof(mt_index));
-    child->twins = job->twins;
-    child->edge_ranks = job->edge_ranks;
-    return job->twins && job->edge_ranks && continue_vertex_corners(context, parent, job, child);
+    child->owned[0] = loop->child_twins = mt_allocate_array(context, child->corner_count, sizeof(mt_index));
+    child->owned[1] = loop->child_ranks = mt_allocate_array(context, child->face_count, sizeof(mt_index));
+    child->twins = loop->child_twins;
+    child->edge_ranks = loop->child_ranks;
+    return loop->child_twins && loop->child_ranks && continue_vertex_corners(context, parent, loop, child);
 }
 
-mt_status mt_subdivide_topology_refine(mt_context *context, mt_subdivide_topology *parent, mt_index *corner_vertices,
-                                       bool last, mt_subdivide_topology *child)
+mt_status mt_subdivide_topology_plan(mt_context *context, mt_subdivide_topology *parent, mt_index *corner_vertices,
+                                     bool last, mt_subdivide_topology *child, mt_subdivide_pass *pass)
 {
     static const mt_parallel_body loops[][2] = {[0] = {refine_polygons, refine_polygons_last},
                                                 [3] = {refine_triangles, refine_triangles_last},
                                                 [4] = {refine_quads, refine_quads_last}};
-    refine_job job = {.parent = parent, .vertices = corner_vertices};
+    mt_subdivide_loop loop = {.topology = parent, .child_vertices = corner_vertices};
     *child = (mt_subdivide_topology){.vertex_count = (mt_index)mt_subdivide_child_vertex_count(parent),
                                      .face_count = parent->corner_count,
                                      .corner_count = 4 * parent->corner_count,
@@ -127,13 +125,13 @@ mt_status mt_subdivide_topology_refine(mt_context *context, mt_subdivide_topolog
                                      .level = parent->level + 1,
                                      .face_size = 4,
                                      .corner_vertices = corner_vertices};
-    if (!last && !allocate_links(context, parent, &job, child)) {
+    if (!last && !allocate_links(context, parent, &loop, child)) {
         mt_subdivide_topology_release(context, child);
         return mt_context_error(context)->status;
     }
-    mt_parallel_for(context, parent->face_count, MT_SUBDIVIDE_GRAIN, loops[parent->face_size][last], &job);
-    if (job.vertex_corners) {
-        mt_parallel_for(context, parent->vertex_count, 4 * MT_SUBDIVIDE_GRAIN, keep_old_vertices, &job);
+    mt_subdivide_pass_add(pass, &loop, loops[parent->face_size][last], parent->face_count);
+    if (loop.child_vertex_corners) {
+        mt_subdivide_pass_add(pass, &loop, keep_old_vertices, parent->vertex_count);
     }
     return MT_OK;
 }

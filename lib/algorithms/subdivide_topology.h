@@ -11,8 +11,11 @@
 
 #define MT_SUBDIVIDE_INLINE static inline __attribute__((always_inline))
 
-/* Faces of a parallel block: enough to hide its cost, few enough to spread small meshes. */
+/* Faces of a parallel block: enough to hide its cost; what they touch stays in a cache of 512 KB. */
 #define MT_SUBDIVIDE_GRAIN 4096
+
+/* Below so many faces one thread does all: on a busy machine it costs milliseconds until another has run. */
+#define MT_SUBDIVIDE_ALONE 32768
 
 typedef struct mt_subdivide_topology {
     mt_index vertex_count, face_count, corner_count, edge_count;
@@ -48,10 +51,31 @@ mt_status mt_subdivide_topology_of_values(mt_context *context, const mt_subdivid
 /* Edges of the mesh that a corner attribute splits in two. O(corners). */
 mt_index mt_subdivide_seam_count(const mt_mesh *mesh, const mt_edge_pairs *pairs, const mt_attribute *attribute);
 
-/* The next level. corner_vertices receives its corners (4 for each of the parent's; the caller's). With `last` nothing
- * else is made: no further level can follow. Takes vertex_corners over from a parent past level 0. */
-mt_status mt_subdivide_topology_refine(mt_context *context, mt_subdivide_topology *parent, mt_index *corner_vertices,
-                                       bool last, mt_subdivide_topology *child);
+/* One loop over the faces or vertices of a level: what it makes, and of which connectivity. */
+typedef struct mt_subdivide_loop {
+    mt_parallel_body body; /* its user is the loop */
+    uint64_t count;
+    const mt_subdivide_topology *topology;
+
+    /* Values (subdivide_values.c) */
+    const void *source;
+    void *target;
+    size_t stride; /* numbers from one value to the next */
+    size_t offset; /* of the first component that the loop makes */
+    size_t size;   /* bytes of a value */
+    bool linear;
+
+    /* Connectivity of the next level (subdivide_topology.c); but the first NULL on the last level */
+    mt_index *child_vertices, *child_twins, *child_ranks;
+    mt_index *child_vertex_corners; /* made at level 1 alone */
+} mt_subdivide_loop;
+typedef struct mt_subdivide_pass mt_subdivide_pass; /* subdivide_pass.h */
+
+/* Allocates the next level and adds the loops that fill it, at most two, to the pass. corner_vertices receives its
+ * corners (4 for each of the parent's; the caller's). With `last` nothing else is made: no further level can follow.
+ * Takes vertex_corners over from a parent past level 0, which can still be read. */
+mt_status mt_subdivide_topology_plan(mt_context *context, mt_subdivide_topology *parent, mt_index *corner_vertices,
+                                     bool last, mt_subdivide_topology *child, mt_subdivide_pass *pass);
 
 void mt_subdivide_topology_release(mt_context *context, mt_subdivide_topology *topology);
 

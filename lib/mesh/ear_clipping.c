@@ -21,9 +21,11 @@
 
 #include <string.h>
 
-/* Passes over the corners that may be spent on finding ears again after the rules were loosened. Fewer: touching
- * polygons get overlapping triangles; more: a crossing polygon takes longer. */
+/* Tests that may be spent on finding ears again after the rules were loosened: so many passes over the corners, fewer
+ * for large polygons. Less: touching polygons get overlapping triangles; more: a crossing polygon takes longer. */
 #define RETEST_PASSES 64
+#define RETEST_PASSES_LARGE 4
+#define RETEST_COUNT_LARGE ((uint64_t)1 << 18)
 
 typedef enum corner_kind { KIND_REFLEX, KIND_FLAT, KIND_CONVEX, KIND_REPEATED } corner_kind;
 
@@ -271,12 +273,19 @@ static void begin(ear_clipper *clipper, const mt_blocker_memory *memory)
     }
 }
 
+static uint64_t retest_budget(mt_index count)
+{
+    uint64_t small = (uint64_t)count * RETEST_PASSES, large = (uint64_t)count * RETEST_PASSES_LARGE;
+    large = large > RETEST_COUNT_LARGE ? large : RETEST_COUNT_LARGE;
+    return small < large ? small : large;
+}
+
 void mt_ear_clip(mt_point2 *points, mt_index count, void *scratch, mt_index *triangles)
 {
     ear_clipper clipper = {.points = points, .count = count, .left = count, .triangle = triangles};
     mt_blocker_memory memory;
     lay_out(&clipper, &memory, count, scratch);
-    clipper.budget = (uint64_t)count * RETEST_PASSES;
+    clipper.budget = retest_budget(count);
     begin(&clipper, &memory);
     clip_all(&clipper);
 }

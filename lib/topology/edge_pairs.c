@@ -5,114 +5,103 @@
 #include "lib/topology/edge_chain.h"
 #include "lib/topology/edge_ranges.h"
 
-#include <string.h>
-
 /* With more threads than this, ranges are faster for every mesh. */
 #define CHAIN_THREADS 2
 
-/* Meshes of fewer corners fit the cache whatever their order. */
-#define SMALL_CORNER_COUNT 100000
+/* What the pass over the faces carries along. */
+typedef struct chain_pairing {
+    edge_chains chains;
+    mt_index *next_side;
+    const mt_index *corner_vertices;
+    mt_index regular, misoriented, non_manifold;
+} chain_pairing;
 
-/* Windows of the list of corners that are looked at to judge its order. */
-#define WINDOW_COUNT 16
-#define WINDOW_SIZE 4096
-
-/* The cache that is pretended while looking: lines of 16 vertices. */
-#define LINE_SHIFT 4
-#define LINE_COUNT 512
-
-/* How many of a window's corners name a vertex whose line was touched shortly before. */
-static mt_index count_hits(const mt_index *corner_vertices)
+/* Hangs a further side into the ring of its edge. Sides come in the order of corners, so rings ascend by themselves. */
+MT_ALWAYS_INLINE void extend_ring(chain_pairing *pairing, mt_index last, mt_index tail, mt_index corner)
 {
-    mt_index lines[LINE_COUNT];
-    memset(lines, 0xff, sizeof lines);
-    mt_index hits = 0;
-    for (mt_index c = 0; c < WINDOW_SIZE; c++) {
-        mt_index line = corner_vertices[c] >> LINE_SHIFT;
-        hits += lines[line % LINE_COUNT] == line;
-        lines[line % LINE_COUNT] = line;
+    mt_index *next_side = pairing->next_side;
+    mt_index first = next_side[last];
+    mt_index same = pairing->corner_vertices[first] == tail;
+    if (first == last) {
+        pairing->misoriented += same;
+        pairing->regular += 1 - same;
+    } else if (next_side[first] == last) {
+        mt_index was_same = pairing->corner_vertices[first] == pairing->corner_vertices[last];
+        pairing->misoriented -= was_same;
+        pairing->regular -= 1 - was_same;
+        pairing->non_manifold++;
     }
-    return hits;
+    next_side[last] = corner;
+    next_side[corner] = first;
 }
 
-/* Whether faces that follow each other mostly name the same vertices and their neighbours. */
-static bool is_local(const mt_mesh *mesh)
+MT_ALWAYS_INLINE void add_side(chain_pairing *pairing, mt_index tail, mt_index head, mt_index corner)
 {
-    if (mesh->corner_count < SMALL_CORNER_COUNT) {
-        return true;
+    if (tail == head) {
+        pairing->next_side[corner] = MT_NONE;
+        return;
     }
-    mt_index stride = mesh->corner_count / WINDOW_COUNT;
-    mt_index hits = 0;
-    for (mt_index window = 0; window < WINDOW_COUNT; window++) {
-        hits += count_hits(mesh->corner_vertices + (size_t)window * stride);
-    }
-    return hits > WINDOW_COUNT * WINDOW_SIZE / 4 * 3;
-}
-
-static inline __attribute__((always_inline)) void add_side(edge_chains *chains, mt_index a, mt_index b, mt_index corner)
-{
-    if (a != b) {
-        edge_chain_add(chains, a < b ? a : b, a < b ? b : a, a, corner);
+    mt_index count = pairing->chains.entry_count;
+    mt_index edge = edge_chain_find(&pairing->chains, tail < head ? tail : head, tail < head ? head : tail);
+    chain_entry *entry = &pairing->chains.entries[edge];
+    if (edge == count) {
+        pairing->next_side[corner] = corner;
     } else {
-        chains->next_side[corner] = MT_NONE;
+        extend_ring(pairing, entry->last, tail, corner);
     }
+    entry->last = corner;
 }
 
-static inline __attribute__((always_inline)) void add_face(edge_chains *chains, const mt_mesh *mesh, mt_index face)
+MT_ALWAYS_INLINE void add_face(chain_pairing *pairing, const mt_mesh *mesh, mt_index face)
 {
     mt_index begin = mt_mesh_face_begin(mesh, face);
     mt_index end = mt_mesh_face_end(mesh, face);
     const mt_index *vertices = mesh->corner_vertices;
     if (end - begin == 3) {
-        add_side(chains, vertices[begin], vertices[begin + 1], begin);
-        add_side(chains, vertices[begin + 1], vertices[begin + 2], begin + 1);
-        add_side(chains, vertices[begin + 2], vertices[begin], begin + 2);
+        add_side(pairing, vertices[begin], vertices[begin + 1], begin);
+        add_side(pairing, vertices[begin + 1], vertices[begin + 2], begin + 1);
+        add_side(pairing, vertices[begin + 2], vertices[begin], begin + 2);
         return;
     }
     for (mt_index c = begin; c < end; c++) {
-        add_side(chains, vertices[c], vertices[c + 1 < end ? c + 1 : begin], c);
+        add_side(pairing, vertices[c], vertices[c + 1 < end ? c + 1 : begin], c);
     }
 }
 
 /* False, with the result incomplete, when the chains grew long. A local copy lives in registers, which stores to
  * the lists cannot touch. */
-static bool add_faces(edge_chains *chains, const mt_mesh *mesh)
+static bool add_faces(chain_pairing *pairing, const mt_mesh *mesh)
 {
-    edge_chains local = *chains;
+    chain_pairing local = *pairing;
     uint64_t step_limit = edge_chain_step_limit(mesh->corner_count);
     mt_index face = 0;
-    for (; face < mesh->face_count && local.steps <= step_limit; face++) {
+    for (; face < mesh->face_count && local.chains.steps <= step_limit; face++) {
         add_face(&local, mesh, face);
     }
-    *chains = local;
+    *pairing = local;
     return face == mesh->face_count;
 }
 
 static mt_status pair_by_chains(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs, edge_tally *tally,
                                 bool *done)
 {
-    edge_chains chains = {.next_side = pairs->next_side, .corner_vertices = mesh->corner_vertices};
-    chains.heads = mt_allocate_array(context, mesh->vertex_count, sizeof *chains.heads);
-    chains.entries = mt_allocate_array(context, mesh->corner_count, sizeof *chains.entries);
-    mt_status status = MT_ERROR_OUT_OF_MEMORY;
-    if (chains.heads && chains.entries) {
-        memset(chains.heads, 0xff, mesh->vertex_count * sizeof *chains.heads);
-        *done = add_faces(&chains, mesh);
-        tally->regular = chains.regular;
-        tally->misoriented = chains.misoriented;
-        tally->non_manifold = chains.non_manifold;
-        tally->boundary = chains.entry_count - chains.regular - chains.misoriented - chains.non_manifold;
-        status = MT_OK;
+    chain_pairing pairing = {.next_side = pairs->next_side, .corner_vertices = mesh->corner_vertices};
+    mt_status status = mt_edge_chains_init(context, mesh->vertex_count, mesh->corner_count, &pairing.chains);
+    if (status == MT_OK) {
+        *done = add_faces(&pairing, mesh);
+        tally->regular = pairing.regular;
+        tally->misoriented = pairing.misoriented;
+        tally->non_manifold = pairing.non_manifold;
+        tally->boundary = pairing.chains.entry_count - pairing.regular - pairing.misoriented - pairing.non_manifold;
     }
-    mt_free(context, chains.heads);
-    mt_free(context, chains.entries);
+    mt_edge_chains_release(context, &pairing.chains);
     return status;
 }
 
 static mt_status find_pairs(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs, edge_tally *tally)
 {
     bool done = false;
-    if (mt_context_thread_count(context) <= CHAIN_THREADS && is_local(mesh)) {
+    if (mt_context_thread_count(context) <= CHAIN_THREADS && mt_edge_chains_suit(mesh)) {
         mt_status status = pair_by_chains(context, mesh, pairs, tally, &done);
         if (status != MT_OK || done) {
             return status;

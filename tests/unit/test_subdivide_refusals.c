@@ -32,6 +32,9 @@ static void test_non_manifold_edge(void **state)
     (void)state;
     static const mt_index book[] = {3, 5, 6, 7, 3, 0, 1, 2, 3, 1, 0, 3, 3, 0, 1, 4};
     expect_refusal(8, 4, book, MT_ERROR_NOT_MANIFOLD, "edge 0-1 is shared by 3 faces (1, 2, 3); ", "repair --split");
+    static const mt_index doubled[] = {4, 0, 1, 2, 3, 3, 1, 0, 4, 4, 3, 2, 1, 0, 4, 2, 3, 0, 1};
+    expect_refusal(5, 4, doubled, MT_ERROR_NOT_MANIFOLD, "edge 0-1 is shared by 4 faces (0, 1, 2, 3); ",
+                   "repair --drop-duplicates");
     mt_index many[4 * 20];
     for (mt_index i = 0; i < 20; i++) {
         mt_index face[] = {3, 0, 1, 2 + i};

@@ -1,6 +1,9 @@
 /* The half-edge structure (polygons, boundaries). Half-edges come in pairs: the twin of h is h ^ 1, and
  * edge e has the half-edges 2e and 2e + 1; 2e is the side of the lower corner, and edges are numbered in
- * the order of these. Boundary half-edges exist and have no face; they are linked into loops. */
+ * the order of these. Boundary half-edges exist and have no face; they are linked into loops.
+ *
+ * There is no `previous` stored, so a closed triangle mesh takes 42 bytes a triangle: mt_halfedge_previous
+ * finds it in two steps on a triangle and in one on the boundary, in a walk around any other face. */
 #ifndef MESHTOOL_HALFEDGE_H
 #define MESHTOOL_HALFEDGE_H
 
@@ -10,57 +13,132 @@
 extern "C" {
 #endif
 
+typedef struct mt_halfedge {
+    mt_index next; /* the following half-edge of the same face or boundary loop */
+    mt_index head; /* the vertex it points to */
+    mt_index face; /* MT_NONE on the boundary */
+} mt_halfedge;
+
 typedef struct mt_halfedge_mesh {
     mt_index vertex_count;
     mt_index face_count;
     mt_index halfedge_count; /* twice the edges */
-    mt_index *next;          /* following half-edge of the same face or boundary loop */
-    mt_index *previous;
-    mt_index *head;            /* the vertex it points to */
-    mt_index *face;            /* MT_NONE on the boundary */
-    mt_index *vertex_halfedge; /* one half-edge pointing to the vertex, a boundary one where there is one;
+    mt_halfedge *halfedges;
+    mt_index *vertex_halfedge; /* a half-edge that points to the vertex, the boundary one where there is one;
                                   MT_NONE for isolated vertices */
     mt_index *face_halfedge;   /* the half-edge of the face's first corner's side */
 } mt_halfedge_mesh;
 
-/* Builds the structure. MT_ERROR_NOT_MANIFOLD or MT_ERROR_NOT_ORIENTED names the first offender (edge, vertex
- * or degenerate face). O(corners). */
+/* Builds the structure from the mesh's faces; *out is NULL on failure. Never drops a face: MT_ERROR_NOT_MANIFOLD or
+ * MT_ERROR_NOT_ORIENTED names the first offender (a face that names a vertex twice, else an edge of three faces or
+ * more, else an edge along which two faces run in the same direction, else a vertex where several fans of faces meet),
+ * and what can mend it. O(vertices + corners). */
 mt_status mt_halfedge_create(mt_context *context, const mt_mesh *mesh, mt_halfedge_mesh **out);
-void mt_halfedge_destroy(mt_context *context, mt_halfedge_mesh *structure);
+void mt_halfedge_destroy(mt_context *context, mt_halfedge_mesh *structure); /* NULL is allowed */
 
 /* Checks every invariant; MT_ERROR_INTERNAL with the first violation named. O(size). */
 mt_status mt_halfedge_validate(mt_context *context, const mt_halfedge_mesh *structure);
 
-/* Back to faces, each beginning at its face_halfedge's tail; positions are taken from `source`, which must have the
- * same vertices. */
+/* Back to faces, in their order, each beginning with the tail of its face_halfedge, so that a mesh comes back as it
+ * was. Positions are taken from `source`, which must have as many vertices; attributes do not follow. */
 mt_status mt_halfedge_to_mesh(mt_context *context, const mt_halfedge_mesh *structure, const mt_mesh *source,
                               mt_mesh **out);
+
+/* Bytes that the structure holds. */
+uint64_t mt_halfedge_size(const mt_halfedge_mesh *structure);
 
 static inline mt_index mt_halfedge_twin(mt_index halfedge)
 {
     return halfedge ^ 1u;
 }
 
+static inline mt_index mt_halfedge_next(const mt_halfedge_mesh *structure, mt_index halfedge)
+{
+    return structure->halfedges[halfedge].next;
+}
+
+static inline mt_index mt_halfedge_head(const mt_halfedge_mesh *structure, mt_index halfedge)
+{
+    return structure->halfedges[halfedge].head;
+}
+
 static inline mt_index mt_halfedge_tail(const mt_halfedge_mesh *structure, mt_index halfedge)
 {
-    return structure->head[halfedge ^ 1u];
+    return structure->halfedges[halfedge ^ 1u].head;
+}
+
+static inline mt_index mt_halfedge_face(const mt_halfedge_mesh *structure, mt_index halfedge)
+{
+    return structure->halfedges[halfedge].face;
 }
 
 static inline bool mt_halfedge_is_boundary(const mt_halfedge_mesh *structure, mt_index halfedge)
 {
-    return structure->face[halfedge] == MT_NONE;
+    return structure->halfedges[halfedge].face == MT_NONE;
 }
 
-/* The next half-edge, clockwise, that points to the same vertex. */
-static inline mt_index mt_halfedge_next_around_head(const mt_halfedge_mesh *structure, mt_index halfedge)
+/* Whether either side of the edge has no face. */
+static inline bool mt_halfedge_edge_is_boundary(const mt_halfedge_mesh *structure, mt_index edge)
 {
-    return structure->next[halfedge] ^ 1u;
+    return mt_halfedge_is_boundary(structure, 2 * edge) || mt_halfedge_is_boundary(structure, 2 * edge + 1);
 }
 
-/* The same, counter-clockwise. */
-static inline mt_index mt_halfedge_previous_around_head(const mt_halfedge_mesh *structure, mt_index halfedge)
+/* False for isolated vertices too. */
+static inline bool mt_halfedge_vertex_is_boundary(const mt_halfedge_mesh *structure, mt_index vertex)
 {
-    return structure->previous[halfedge ^ 1u];
+    mt_index halfedge = structure->vertex_halfedge[vertex];
+    return halfedge != MT_NONE && mt_halfedge_is_boundary(structure, halfedge);
+}
+
+/* The half-edge whose next is this one. O(1) on triangles and the boundary, O(sides) on other faces. */
+static inline mt_index mt_halfedge_previous(const mt_halfedge_mesh *structure, mt_index halfedge)
+{
+    if (mt_halfedge_is_boundary(structure, halfedge)) {
+        return structure->vertex_halfedge[mt_halfedge_tail(structure, halfedge)];
+    }
+    mt_index at = halfedge;
+    while (structure->halfedges[at].next != halfedge) {
+        at = structure->halfedges[at].next;
+    }
+    return at;
+}
+
+/* Circulators. Each begins at a half-edge and steps until it is back there; boundary half-edges close every ring.
+ *
+ *     mt_index begin = structure->vertex_halfedge[vertex], h = begin;   (MT_NONE: an isolated vertex)
+ *     do {
+ *         neighbour vertex: mt_halfedge_tail(structure, h); edge: h >> 1; face: mt_halfedge_face(structure, h)
+ *         h = mt_halfedge_clockwise(structure, h);
+ *     } while (h != begin);
+ *
+ * Around a face or a boundary loop: begin with face_halfedge and step with mt_halfedge_next; the neighbouring face is
+ * mt_halfedge_face(structure, h ^ 1). */
+
+/* The next half-edge that points to the same vertex, clockwise seen from the front. O(1). */
+static inline mt_index mt_halfedge_clockwise(const mt_halfedge_mesh *structure, mt_index halfedge)
+{
+    return structure->halfedges[halfedge].next ^ 1u;
+}
+
+/* The same, counter-clockwise. Costs a mt_halfedge_previous. */
+static inline mt_index mt_halfedge_counterclockwise(const mt_halfedge_mesh *structure, mt_index halfedge)
+{
+    return mt_halfedge_previous(structure, halfedge ^ 1u);
+}
+
+/* Edges at the vertex, 0 for isolated ones. O(valence). */
+static inline mt_index mt_halfedge_valence(const mt_halfedge_mesh *structure, mt_index vertex)
+{
+    mt_index begin = structure->vertex_halfedge[vertex];
+    mt_index count = 0;
+    for (mt_index h = begin; h != MT_NONE;) {
+        count++;
+        h = mt_halfedge_clockwise(structure, h);
+        if (h == begin) {
+            break;
+        }
+    }
+    return count;
 }
 
 #ifdef __cplusplus

@@ -20,8 +20,11 @@
 #include <meshtool/weld.h>        /* points at one place become one */
 
 /* Connectivity */
-#include <meshtool/edge_pairs.h> /* which sides share an edge */
-#include <meshtool/halfedge.h>   /* half-edges in pairs */
+#include <meshtool/components.h>       /* connected faces, orientability */
+#include <meshtool/degenerate_faces.h> /* faces that name a vertex twice */
+#include <meshtool/edge_pairs.h>       /* which sides share an edge */
+#include <meshtool/halfedge.h>         /* half-edges in pairs */
+#include <meshtool/vertex_fans.h>      /* how the faces around a vertex hang together */
 
 /* Space */
 #include <meshtool/aabb_tree.h> /* a tree of boxes over triangles */

@@ -1,0 +1,213 @@
+/* Building and unbuilding the half-edge structure. Sides are paired first (edge_pairs.c); a mesh that the structure
+ * cannot hold is refused with its first offender (halfedge_refusal.c), never thinned out.
+ *
+ * Cost: O(vertices + corners) time; 12 bytes a half-edge, 4 a vertex and 4 a face kept, 16 a corner more meanwhile. */
+#include "lib/topology/halfedge_fill.h"
+#include "lib/topology/halfedge_refusal.h"
+
+#include <meshtool/degenerate_faces.h>
+
+#include <string.h>
+
+static mt_status allocate_structure(mt_context *context, const mt_mesh *mesh, uint64_t edge_room,
+                                    mt_halfedge_mesh *structure)
+{
+    if (2 * edge_room > MT_INDEX_MAX) {
+        return mt_fail(context, MT_ERROR_TOO_LARGE, "%llu edges need more half-edges than an index can number",
+                       (unsigned long long)edge_room);
+    }
+    structure->vertex_count = mesh->vertex_count;
+    structure->face_count = mesh->face_count;
+    structure->halfedges = mt_allocate_array(context, 2 * edge_room, sizeof *structure->halfedges);
+    structure->vertex_halfedge = mt_allocate_array(context, mesh->vertex_count, sizeof *structure->vertex_halfedge);
+    structure->face_halfedge = mt_allocate_array(context, mesh->face_count, sizeof *structure->face_halfedge);
+    bool complete = structure->halfedges && structure->vertex_halfedge && structure->face_halfedge;
+    return complete ? MT_OK : mt_context_error(context)->status;
+}
+
+static void release_arrays(mt_context *context, mt_halfedge_mesh *structure)
+{
+    mt_free(context, structure->halfedges);
+    mt_free(context, structure->vertex_halfedge);
+    mt_free(context, structure->face_halfedge);
+    *structure = (mt_halfedge_mesh){0};
+}
+
+#define WALKERS 32
+
+/* Half-edges met on the way around all vertices. Several vertices are walked around at once, since each step must wait
+ * for memory. */
+static uint64_t count_ring_halfedges(const mt_halfedge_mesh *structure)
+{
+    uint64_t count = 0;
+    mt_index begins[WALKERS], at[WALKERS];
+    mt_index active = 0, vertex = 0;
+    while (true) {
+        while (active < WALKERS && vertex < structure->vertex_count) {
+            mt_index begin = structure->vertex_halfedge[vertex++];
+            if (begin != MT_NONE) {
+                begins[active] = at[active] = begin;
+                active++;
+            }
+        }
+        if (active == 0) {
+            return count;
+        }
+        for (mt_index i = 0; i < active;) {
+            at[i] = mt_halfedge_clockwise(structure, at[i]);
+            count++;
+            if (at[i] == begins[i]) {
+                active--;
+                at[i] = at[active];
+                begins[i] = begins[active];
+            } else {
+                i++;
+            }
+        }
+    }
+}
+
+static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs,
+                                  mt_halfedge_mesh *structure)
+{
+    mt_status status = mt_halfedge_refuse_sides(context, mesh, pairs);
+    if (status == MT_OK) {
+        status = allocate_structure(context, mesh, pairs->edge_count, structure);
+    }
+    if (status != MT_OK) {
+        return status;
+    }
+    structure->halfedge_count = 2 * pairs->edge_count;
+    bool filled = mt_halfedge_fill(mesh, pairs, structure);
+    if (!filled || count_ring_halfedges(structure) != structure->halfedge_count) {
+        return mt_halfedge_refuse_vertex(context, mesh);
+    }
+    return MT_OK;
+}
+
+/* Room for the edges of a mesh with little boundary. */
+static uint64_t guess_edge_count(const mt_mesh *mesh)
+{
+    return (uint64_t)mesh->corner_count / 2 + mesh->corner_count / 64 + 16;
+}
+
+/* The fast way. Sets *done when the structure is complete; else it is empty, and the slow way finds out why. */
+static mt_status build_by_chains(mt_context *context, const mt_mesh *mesh, mt_halfedge_mesh *structure, bool *done)
+{
+    uint64_t edge_room = guess_edge_count(mesh);
+    bool simple = true;
+    mt_status status = mt_halfedge_polygons_are_simple(context, mesh, &simple);
+    if (status != MT_OK || !simple || 2 * edge_room > MT_INDEX_MAX) {
+        return status;
+    }
+    edge_chains chains = {0};
+    status = allocate_structure(context, mesh, edge_room, structure);
+    if (status == MT_OK) {
+        status = mt_edge_chains_init(context, mesh->vertex_count, (mt_index)edge_room, &chains);
+    }
+    if (status == MT_OK) {
+        *done = mt_halfedge_fill_by_chains(mesh, &chains, (mt_index)edge_room, structure) &&
+                count_ring_halfedges(structure) == structure->halfedge_count;
+    }
+    mt_edge_chains_release(context, &chains);
+    if (!*done) {
+        release_arrays(context, structure);
+    }
+    return status;
+}
+
+static mt_status build(mt_context *context, const mt_mesh *mesh, mt_halfedge_mesh *structure)
+{
+    bool done = false;
+    if (mt_edge_chains_suit(mesh)) {
+        mt_status status = build_by_chains(context, mesh, structure, &done);
+        if (status != MT_OK || done) {
+            return status;
+        }
+    }
+    mt_edge_pairs *pairs = NULL;
+    mt_status status = mt_edge_pairs_create(context, mesh, &pairs);
+    if (status == MT_OK) {
+        status = build_from_pairs(context, mesh, pairs, structure);
+    }
+    mt_edge_pairs_destroy(context, pairs);
+    return status;
+}
+
+mt_status mt_halfedge_create(mt_context *context, const mt_mesh *mesh, mt_halfedge_mesh **out)
+{
+    *out = NULL;
+    int part = mt_part_begin(context, "half-edges", "walks around vertices and faces");
+    mt_halfedge_mesh *structure = mt_allocate_zeroed(context, sizeof *structure);
+    mt_status status = structure ? build(context, mesh, structure) : MT_ERROR_OUT_OF_MEMORY;
+    if (status == MT_OK) {
+        *out = structure;
+    } else {
+        mt_halfedge_destroy(context, structure);
+    }
+    mt_part_end(context, part);
+    return status;
+}
+
+void mt_halfedge_destroy(mt_context *context, mt_halfedge_mesh *structure)
+{
+    if (structure) {
+        release_arrays(context, structure);
+        mt_free(context, structure);
+    }
+}
+
+uint64_t mt_halfedge_size(const mt_halfedge_mesh *structure)
+{
+    return sizeof *structure + structure->halfedge_count * (uint64_t)sizeof *structure->halfedges +
+           ((uint64_t)structure->vertex_count + structure->face_count) * sizeof(mt_index);
+}
+
+static uint64_t count_corners(const mt_halfedge_mesh *structure)
+{
+    uint64_t count = 0;
+    for (mt_index h = 0; h < structure->halfedge_count; h++) {
+        count += !mt_halfedge_is_boundary(structure, h);
+    }
+    return count;
+}
+
+static void write_faces(const mt_halfedge_mesh *structure, mt_mesh *mesh)
+{
+    mt_index corner = 0;
+    for (mt_index face = 0; face < structure->face_count; face++) {
+        mt_index begin = structure->face_halfedge[face];
+        mt_index h = begin;
+        do {
+            mesh->corner_vertices[corner++] = mt_halfedge_tail(structure, h);
+            h = mt_halfedge_next(structure, h);
+        } while (h != begin);
+        mesh->face_offsets[face + 1] = corner;
+    }
+}
+
+mt_status mt_halfedge_to_mesh(mt_context *context, const mt_halfedge_mesh *structure, const mt_mesh *source,
+                              mt_mesh **out)
+{
+    *out = NULL;
+    if (source->vertex_count != structure->vertex_count) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "positions of %u vertices cannot serve a structure of %u",
+                       source->vertex_count, structure->vertex_count);
+    }
+    mt_mesh_layout layout = {.vertex_count = source->vertex_count,
+                             .face_count = structure->face_count,
+                             .corner_count = count_corners(structure),
+                             .position_type = source->position_type};
+    mt_mesh *mesh = NULL;
+    mt_status status = mt_mesh_create(context, &layout, &mesh);
+    if (status != MT_OK) {
+        return status;
+    }
+    memcpy(mesh->positions, source->positions, 3 * (size_t)source->vertex_count * mt_type_size(source->position_type));
+    mesh->up = source->up;
+    mesh->welded = source->welded;
+    write_faces(structure, mesh);
+    mt_mesh_compact_faces(context, mesh);
+    *out = mesh;
+    return MT_OK;
+}
