@@ -128,34 +128,46 @@ static void find_firsts(const mt_index *numbers, mt_index count, mt_index *first
     }
 }
 
-static mt_status weld(mt_context *context, mt_mesh *mesh, mt_index *numbers, mt_index *firsts, void *distinct)
+static void join_positions(mt_mesh *mesh, const weld_map *map)
 {
-    mt_index new_count = 0;
-    mt_status status =
-        mt_weld_exact(context, mesh->positions, mesh->position_type, mesh->vertex_count, distinct, numbers, &new_count);
-    if (status != MT_OK) {
-        return status;
+    size_t size = 3 * mt_type_size(mesh->position_type);
+    unsigned char *positions = mesh->positions;
+    for (mt_index v = 0; v < map->new_count; v++) {
+        memmove(positions + v * size, positions + map->firsts[v] * size, size);
+    }
+}
+
+mt_status mt_mesh_join_vertices(mt_context *context, mt_mesh *mesh, const mt_index *numbers, mt_index distinct_count)
+{
+    mt_index *firsts = mt_allocate_array(context, mesh->vertex_count, sizeof *firsts);
+    if (!firsts) {
+        return mt_context_error(context)->status;
     }
     find_firsts(numbers, mesh->vertex_count, firsts);
-    weld_map map = {numbers, firsts, mesh->vertex_count, new_count};
-    status = weld_attributes(context, mesh, &map);
+    weld_map map = {numbers, firsts, mesh->vertex_count, distinct_count};
+    mt_status status = weld_attributes(context, mesh, &map);
     if (status == MT_OK) {
         renumber_mesh(context, mesh, numbers);
-        memcpy(mesh->positions, distinct, 3 * (size_t)new_count * mt_type_size(mesh->position_type));
-        mesh->vertex_count = new_count;
+        join_positions(mesh, &map);
+        mesh->vertex_count = distinct_count;
     }
+    mt_free(context, firsts);
     return status;
 }
 
 mt_status mt_mesh_weld(mt_context *context, mt_mesh *mesh, mt_index *removed)
 {
-    mt_index old_count = mesh->vertex_count;
+    mt_index old_count = mesh->vertex_count, new_count = 0;
     mt_index *numbers = mt_allocate_array(context, old_count, sizeof *numbers);
-    mt_index *firsts = numbers ? mt_allocate_array(context, old_count, sizeof *firsts) : NULL;
-    void *distinct = firsts ? mt_allocate_array(context, old_count, 3 * mt_type_size(mesh->position_type)) : NULL;
-    mt_status status = distinct ? weld(context, mesh, numbers, firsts, distinct) : MT_ERROR_OUT_OF_MEMORY;
-    mt_free(context, distinct);
-    mt_free(context, firsts);
+    void *distinct = numbers ? mt_allocate_array(context, old_count, 3 * mt_type_size(mesh->position_type)) : NULL;
+    mt_status status = MT_ERROR_OUT_OF_MEMORY;
+    if (distinct) {
+        status = mt_weld_exact(context, mesh->positions, mesh->position_type, old_count, distinct, numbers, &new_count);
+        mt_free(context, distinct);
+    }
+    if (status == MT_OK) {
+        status = mt_mesh_join_vertices(context, mesh, numbers, new_count);
+    }
     mt_free(context, numbers);
     if (removed) {
         *removed = old_count - mesh->vertex_count;

@@ -28,6 +28,16 @@ mt_status mt_weld_exact(mt_context *context, const void *positions, mt_type type
  * whole, but attributes may have moved. O(size) time. */
 mt_status mt_mesh_weld(mt_context *context, mt_mesh *mesh, mt_index *removed);
 
+/* The same within a distance: each point, in order, joins the first place at most `tolerance` (above 0) away, or
+ * becomes a place. A point that is not finite is a place of its own. numbers[point_count] and *distinct_count as above;
+ * a place has the position of its first point. Linear in time; 12 bytes a point meanwhile. */
+mt_status mt_weld_within(mt_context *context, const void *positions, mt_type type, mt_index point_count,
+                         double tolerance, mt_index *numbers, mt_index *distinct_count);
+
+/* Joins vertices of a mesh by numbers such as these functions give: vertex v becomes numbers[v], which takes the
+ * position of its first vertex; numbers ascend in the order of first vertices. Attributes as mt_mesh_weld. */
+mt_status mt_mesh_join_vertices(mt_context *context, mt_mesh *mesh, const mt_index *numbers, mt_index distinct_count);
+
 #ifdef __cplusplus
 }
 #endif
