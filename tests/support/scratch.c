@@ -1,0 +1,104 @@
+#include "tests/support/unit.h"
+
+#include "tests/support/scratch.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char folder[64];
+static pid_t owner, writer;
+
+static void remove_folder(void)
+{
+    if (getpid() != owner) {
+        return;
+    }
+    DIR *entries = opendir(folder);
+    struct dirent *entry;
+    while (entries && (entry = readdir(entries))) {
+        unlinkat(dirfd(entries), entry->d_name, 0);
+    }
+    if (entries) {
+        closedir(entries);
+    }
+    rmdir(folder);
+}
+
+const char *test_scratch_path(const char *name)
+{
+    static char paths[8][256];
+    static unsigned next;
+    if (!folder[0]) {
+        strcpy(folder, "/tmp/meshtool-test-XXXXXX");
+        assert_non_null(mkdtemp(folder));
+        owner = getpid();
+        atexit(remove_folder);
+    }
+    char *path = paths[next++ % 8];
+    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+    return path;
+}
+
+const char *test_scratch_file(const char *name, const void *bytes, size_t size)
+{
+    const char *path = test_scratch_path(name);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+static void fill_pipe(const char *path, const char *bytes, size_t size)
+{
+    signal(SIGPIPE, SIG_IGN);
+    int file = open(path, O_WRONLY);
+    while (file >= 0 && size > 0) {
+        ssize_t written = write(file, bytes, size);
+        if (written < 0) {
+            break;
+        }
+        bytes += written;
+        size -= (size_t)written;
+    }
+    _exit(0);
+}
+
+const char *test_scratch_pipe(const char *name, const void *bytes, size_t size)
+{
+    const char *path = test_scratch_path(name);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    writer = fork();
+    assert_true(writer >= 0);
+    if (writer == 0) {
+        fill_pipe(path, bytes, size);
+    }
+    return path;
+}
+
+void test_scratch_pipe_end(const char *path)
+{
+    int status;
+    assert_int_equal(waitpid(writer, &status, 0), writer);
+    assert_int_equal(unlink(path), 0);
+}
+
+size_t test_scratch_count(void)
+{
+    size_t count = 0;
+    test_scratch_path("");
+    DIR *entries = opendir(folder);
+    assert_non_null(entries);
+    while (readdir(entries)) {
+        count++;
+    }
+    closedir(entries);
+    return count - 2;
+}
