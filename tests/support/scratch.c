@@ -31,16 +31,21 @@ static void remove_folder(void)
     rmdir(folder);
 }
 
-const char *test_scratch_path(const char *name)
+static void make_folder(void)
 {
-    static char paths[8][256];
-    static unsigned next;
     if (!folder[0]) {
         strcpy(folder, "/tmp/meshtool-test-XXXXXX");
         assert_non_null(mkdtemp(folder));
         owner = getpid();
         atexit(remove_folder);
     }
+}
+
+const char *test_scratch_path(const char *name)
+{
+    static char paths[8][256];
+    static unsigned next;
+    make_folder();
     char *path = paths[next++ % 8];
     snprintf(path, sizeof paths[0], "%s/%s", folder, name);
     return path;
@@ -93,7 +98,7 @@ void test_scratch_pipe_end(const char *path)
 size_t test_scratch_count(void)
 {
     size_t count = 0;
-    test_scratch_path("");
+    make_folder();
     DIR *entries = opendir(folder);
     assert_non_null(entries);
     while (readdir(entries)) {
