@@ -10,8 +10,9 @@
 #define DEFAULT_SIZE 1024
 #define DEFAULT_SAMPLES 16
 
-/* Regular prisms have 360/n degrees between sides: 45, 40, 36 ... are taken. */
-#define DEFAULT_CREASE 42.0
+/* No regular solid or prism has this angle: prisms turn by 360/n, so 45, 40 and 36 are taken, and an icosahedron
+ * by 41.8. */
+#define DEFAULT_CREASE 41.0
 
 /* Half the field of view of the picture's shorter side, as a tangent: 28 degrees in all. */
 #define VIEW_TANGENT 0.25
@@ -123,8 +124,11 @@ static mt_status make_frame(mt_context *context, job *j)
         status = mt_frame_init(context, &j->model, &camera, j->samples, &j->frame);
     }
     mt_part_end(context, part);
+    if (status != MT_OK) {
+        return status;
+    }
     mt_look_init(&j->look, &j->frame, &j->normals, options->face_colors, view.up);
-    return status;
+    return MT_OK;
 }
 
 static mt_backdrop make_backdrop(const mt_preview_options *options, const mt_surface *surface)
@@ -149,7 +153,7 @@ static void set_strokes(job *j)
     double share = sqrt((double)camera->width * camera->height / (1.0 + j->model.dot_count));
     mt_stroke_set strokes = {.frame = &j->frame, .strokes = j->model.strokes, .count = j->model.stroke_count};
     strokes.line_radius = fmax(0.6, shorter / 900.0);
-    strokes.dot_radius = fmax(0.9, fmin(0.12 * share, shorter / 130.0));
+    strokes.dot_radius = fmax(0.9, fmin(0.12 * share, shorter / 90.0));
     strokes.nearness = 1.0005;
     mt_stroke_set marks = {.frame = &j->frame, .strokes = j->marks, .count = j->mark_count};
     marks.line_radius = fmax(0.8, shorter / 450.0);

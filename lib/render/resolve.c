@@ -163,7 +163,7 @@ static inline unsigned resolve_pixel(const mt_picture *picture, const mt_tile *t
 }
 
 MT_CLONES
-uint64_t mt_resolve_tile(const mt_picture *picture, const mt_tile *tile, mt_facet_cache *cache)
+static uint64_t resolve_tile(const mt_picture *picture, const mt_tile *tile, mt_facet_cache *cache)
 {
     uint64_t covered = 0;
     for (uint32_t y = tile->y; y < tile->y + tile->height; y++) {
@@ -175,6 +175,11 @@ uint64_t mt_resolve_tile(const mt_picture *picture, const mt_tile *tile, mt_face
         }
     }
     return covered;
+}
+
+uint64_t mt_resolve_tile(const mt_picture *picture, const mt_tile *tile, mt_facet_cache *cache)
+{
+    return resolve_tile(picture, tile, cache);
 }
 
 void mt_resolve_blank(const mt_picture *picture, const mt_tile *tile)

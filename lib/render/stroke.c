@@ -23,7 +23,7 @@ static inline segment segment_of(const mt_stroke_set *set, mt_index number)
     segment s = {.x = a->x, .y = a->y, .along_x = (double)b->x - a->x, .along_y = (double)b->y - a->y};
     double length_squared = s.along_x * s.along_x + s.along_y * s.along_y;
     s.per_length_squared = length_squared > 0 ? 1.0 / length_squared : 0.0;
-    bool is_dot = set->strokes[number].a == set->strokes[number].b;
+    bool is_dot = length_squared == 0;
     s.radius = (is_dot ? set->dot_radius : set->line_radius) * MT_STEPS;
     s.depth = a->depth * set->nearness;
     s.depth_along = (b->depth - a->depth) * set->nearness;
@@ -161,18 +161,21 @@ static inline void draw_stroke(const mt_stroke_set *set, mt_tile *tile, mt_index
 }
 
 MT_CLONES
-void mt_draw_strokes(const mt_stroke_set *set, mt_tile *tile, const mt_index *strokes, size_t count,
-                     mt_index first_number)
+static void draw_strokes(const mt_stroke_set *set, mt_tile *tile, const mt_index *numbers, size_t count,
+                         mt_index first_number, bool mark)
 {
     for (size_t i = 0; i < count; i++) {
-        draw_stroke(set, tile, strokes[i], (int32_t)(first_number + strokes[i]), false);
+        draw_stroke(set, tile, numbers[i] - first_number, (int32_t)numbers[i], mark);
     }
 }
 
-MT_CLONES
+void mt_draw_strokes(const mt_stroke_set *set, mt_tile *tile, const mt_index *numbers, size_t count,
+                     mt_index first_number)
+{
+    draw_strokes(set, tile, numbers, count, first_number, false);
+}
+
 void mt_draw_marks(const mt_stroke_set *set, mt_tile *tile, const mt_index *strokes, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        draw_stroke(set, tile, strokes[i], (int32_t)strokes[i], true);
-    }
+    draw_strokes(set, tile, strokes, count, 0, true);
 }

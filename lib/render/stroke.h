@@ -17,8 +17,8 @@ typedef struct mt_stroke_set {
 mt_tile_range mt_stroke_range(const mt_stroke_set *set, mt_index stroke);
 bool mt_stroke_touches(const mt_stroke_set *set, mt_index stroke, uint32_t tile_x, uint32_t tile_y);
 
-/* Draws strokes among the triangles; a stroke's number in the tile is first_number + its own. */
-void mt_draw_strokes(const mt_stroke_set *set, mt_tile *tile, const mt_index *strokes, size_t count,
+/* Draws strokes among the triangles, given by their numbers in the tile: first_number + their own. */
+void mt_draw_strokes(const mt_stroke_set *set, mt_tile *tile, const mt_index *numbers, size_t count,
                      mt_index first_number);
 
 /* Lays strokes over the finished tile, into tile->marks: a visible one wins over a hidden one, then the first. */

@@ -10,7 +10,7 @@ typedef struct mt_view {
 } mt_view;
 
 /* Three quarters from the right and slightly above, with the mesh's up axis up; when it shows its faces nearly
- * edge-on that way, the one of a few other directions that shows most of them. */
+ * edge-on or its length end-on that way, the first of a few other directions that does not, else the best of them. */
 mt_view mt_view_default(const mt_corner_normals *normals);
 
 #endif
