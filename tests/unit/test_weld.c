@@ -112,11 +112,12 @@ static void test_random_points(void **state)
     test_context_end(context);
 }
 
-/* More points than one run of the algorithm, in an order without coherence; any number of threads. */
+/* More points than one run of the algorithm, in an order without coherence, and more places than the table has room for
+ * at first; any number of threads. */
 static void test_many_points(void **state)
 {
     (void)state;
-    enum { COUNT = 200000, PLACES = 30000 };
+    enum { COUNT = 200000, PLACES = 150000 };
     static mt_index first[PLACES];
     for (unsigned threads = 1; threads <= 3; threads++) {
         mt_context *context = test_context_with_threads(threads);

@@ -16,8 +16,8 @@ extern "C" {
  * point, whatever the number of threads. The first *distinct_count triples of `distinct` (room for point_count)
  * receive the places, with the bits of their first point; it may be `positions` itself.
  *
- * Linear in time; holds 4 bytes for each point that is the first of its place in its run of 32768, and a table of 10 to
- * 20 for the same. MT_ERROR_OUT_OF_MEMORY. */
+ * Linear in time; holds 4 bytes for each point that is the first of its place in its run of 32768, and a table of 11 to
+ * 32 bytes for each place. MT_ERROR_OUT_OF_MEMORY. */
 mt_status mt_weld_exact(mt_context *context, const void *positions, mt_type type, mt_index point_count, void *distinct,
                         mt_index *numbers, mt_index *distinct_count);
 
