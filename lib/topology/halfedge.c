@@ -1,9 +1,10 @@
 /* Building and unbuilding the half-edge structure. Sides are paired first (edge_pairs.c); a mesh that the structure
- * cannot hold is refused with its first offender (halfedge_refusal.c), never thinned out.
+ * cannot hold is refused with its first offender (refusal.c), never thinned out.
  *
  * Cost: O(vertices + corners) time; 12 bytes a half-edge, 4 a vertex and 4 a face kept, 16 a corner more meanwhile. */
 #include "lib/topology/halfedge_fill.h"
-#include "lib/topology/halfedge_refusal.h"
+#include "lib/topology/refusal.h"
+#include "lib/topology/source_mesh.h"
 
 #include <meshtool/degenerate_faces.h>
 
@@ -70,7 +71,7 @@ static uint64_t count_ring_halfedges(const mt_halfedge_mesh *structure)
 static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs,
                                   mt_halfedge_mesh *structure)
 {
-    mt_status status = mt_halfedge_refuse_sides(context, mesh, pairs);
+    mt_status status = mt_refuse_sides(context, mesh, pairs);
     if (status == MT_OK) {
         status = allocate_structure(context, mesh, pairs->edge_count, structure);
     }
@@ -80,7 +81,7 @@ static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_e
     structure->halfedge_count = 2 * pairs->edge_count;
     bool filled = mt_halfedge_fill(mesh, pairs, structure);
     if (!filled || count_ring_halfedges(structure) != structure->halfedge_count) {
-        return mt_halfedge_refuse_vertex(context, mesh);
+        return mt_refuse_vertex(context, mesh);
     }
     return MT_OK;
 }
@@ -96,7 +97,7 @@ static mt_status build_by_chains(mt_context *context, const mt_mesh *mesh, mt_ha
 {
     uint64_t edge_room = guess_edge_count(mesh);
     bool simple = true;
-    mt_status status = mt_halfedge_polygons_are_simple(context, mesh, &simple);
+    mt_status status = mt_polygons_are_simple(context, mesh, &simple);
     if (status != MT_OK || !simple || 2 * edge_room > MT_INDEX_MAX) {
         return status;
     }
@@ -189,25 +190,13 @@ static void write_faces(const mt_halfedge_mesh *structure, mt_mesh *mesh)
 mt_status mt_halfedge_to_mesh(mt_context *context, const mt_halfedge_mesh *structure, const mt_mesh *source,
                               mt_mesh **out)
 {
-    *out = NULL;
-    if (source->vertex_count != structure->vertex_count) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "positions of %u vertices cannot serve a structure of %u",
-                       source->vertex_count, structure->vertex_count);
-    }
-    mt_mesh_layout layout = {.vertex_count = source->vertex_count,
+    mt_mesh_layout layout = {.vertex_count = structure->vertex_count,
                              .face_count = structure->face_count,
-                             .corner_count = count_corners(structure),
-                             .position_type = source->position_type};
-    mt_mesh *mesh = NULL;
-    mt_status status = mt_mesh_create(context, &layout, &mesh);
-    if (status != MT_OK) {
-        return status;
+                             .corner_count = count_corners(structure)};
+    mt_status status = mt_source_mesh_create(context, source, &layout, out);
+    if (status == MT_OK) {
+        write_faces(structure, *out);
+        mt_mesh_compact_faces(context, *out);
     }
-    memcpy(mesh->positions, source->positions, 3 * (size_t)source->vertex_count * mt_type_size(source->position_type));
-    mesh->up = source->up;
-    mesh->welded = source->welded;
-    write_faces(structure, mesh);
-    mt_mesh_compact_faces(context, mesh);
-    *out = mesh;
-    return MT_OK;
+    return status;
 }

@@ -12,7 +12,7 @@ compiles() {
     if [[ $language == C++17 ]]; then
         compiler=("$cxx" -std=c++17 -x c++)
     fi
-    printf '#include %s\n#include %s\n' "$included" "$included" |
+    printf '#include %s\n#include %s\ntypedef int no_empty_file;\n' "$included" "$included" |
         "${compiler[@]}" "${warnings[@]}" -I "$root/lib/include" -I "$root/formats/include" -I "$root" - 2>&1
 }
 

@@ -20,11 +20,14 @@
 #include <meshtool/weld.h>        /* points at one place become one */
 
 /* Connectivity */
-#include <meshtool/components.h>       /* connected faces, orientability */
-#include <meshtool/degenerate_faces.h> /* faces that name a vertex twice */
-#include <meshtool/edge_pairs.h>       /* which sides share an edge */
-#include <meshtool/halfedge.h>         /* half-edges in pairs */
-#include <meshtool/vertex_fans.h>      /* how the faces around a vertex hang together */
+#include <meshtool/components.h>         /* connected faces, orientability */
+#include <meshtool/degenerate_faces.h>   /* faces that name a vertex twice */
+#include <meshtool/edge_pairs.h>         /* which sides share an edge */
+#include <meshtool/halfedge.h>           /* half-edges in pairs */
+#include <meshtool/split_non_manifold.h> /* repeated vertices where no structure can hold one */
+#include <meshtool/triangle_neighbor.h>  /* triangles and what lies across their sides */
+#include <meshtool/vertex_fans.h>        /* how the faces around a vertex hang together */
+#include <meshtool/winged_edge.h>        /* edges with their vertices, faces and wings */
 
 /* Space */
 #include <meshtool/aabb_tree.h> /* a tree of boxes over triangles */

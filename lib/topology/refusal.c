@@ -1,6 +1,6 @@
 /* Each refusal names the first offender in the order of the mesh and what can mend it. What it takes to word a message
  * is spent only on failure. Cost: O(corners). */
-#include "lib/topology/halfedge_refusal.h"
+#include "lib/topology/refusal.h"
 
 #include <meshtool/components.h>
 #include <meshtool/degenerate_faces.h>
@@ -50,7 +50,7 @@ static mt_status find_degenerate_face(mt_context *context, const mt_mesh *mesh, 
     return status;
 }
 
-mt_status mt_halfedge_polygons_are_simple(mt_context *context, const mt_mesh *mesh, bool *simple)
+mt_status mt_polygons_are_simple(mt_context *context, const mt_mesh *mesh, bool *simple)
 {
     mt_index face = MT_NONE;
     mt_status status = is_triangles(mesh) ? MT_OK : find_degenerate_face(context, mesh, &face);
@@ -69,7 +69,7 @@ static mt_status refuse_degenerate_face(mt_context *context, const mt_mesh *mesh
         return status;
     }
     return mt_fail(context, MT_ERROR_NOT_MANIFOLD,
-                   "face %u names vertex %u more than once, which half-edges cannot hold; "
+                   "face %u names vertex %u more than once, which no connectivity structure can hold; "
                    "`meshtool repair --drop-degenerate` drops such faces",
                    face, repeated_vertex(mesh, face));
 }
@@ -109,7 +109,7 @@ static mt_status refuse_non_manifold_edge(mt_context *context, const mt_mesh *me
     mt_index corner = first_corner_of_class(mesh, pairs, MT_EDGE_NON_MANIFOLD);
     mt_index count = list_faces(mesh, pairs, corner, faces);
     return mt_fail(context, MT_ERROR_NOT_MANIFOLD,
-                   "edge %u-%u is shared by %u faces (%s), half-edges hold at most two; "
+                   "edge %u-%u is shared by %u faces (%s), connectivity structures hold at most two; "
                    "`meshtool repair --split` separates them",
                    mesh->corner_vertices[corner], mesh->corner_vertices[next_corner(mesh, corner)], count, faces);
 }
@@ -132,7 +132,7 @@ static mt_status refuse_misoriented_edge(mt_context *context, const mt_mesh *mes
                    mesh->corner_vertices[corner], mesh->corner_vertices[next_corner(mesh, corner)], cure);
 }
 
-mt_status mt_halfedge_refuse_sides(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
+mt_status mt_refuse_sides(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs)
 {
     mt_status status = refuse_degenerate_face(context, mesh, pairs);
     if (status != MT_OK) {
@@ -153,7 +153,7 @@ static mt_index first_face_of_vertex(const mt_mesh *mesh, mt_index vertex)
     return mt_mesh_corner_face(mesh, corner);
 }
 
-mt_status mt_halfedge_refuse_vertex(mt_context *context, const mt_mesh *mesh)
+mt_status mt_refuse_vertex(mt_context *context, const mt_mesh *mesh)
 {
     mt_edge_pairs *pairs = NULL;
     mt_vertex_fans *fans = NULL;
@@ -164,10 +164,11 @@ mt_status mt_halfedge_refuse_vertex(mt_context *context, const mt_mesh *mesh)
     if (status == MT_OK) {
         const uint8_t *first = memchr(fans->fans, MT_FANS_SEVERAL, mesh->vertex_count);
         mt_index vertex = (mt_index)(first - fans->fans);
-        status = mt_fail(context, MT_ERROR_NOT_MANIFOLD,
-                         "several fans of faces meet in vertex %u alone (one holds face %u), half-edges hold one; "
-                         "`meshtool repair --split` separates them",
-                         vertex, first_face_of_vertex(mesh, vertex));
+        status = mt_fail(
+            context, MT_ERROR_NOT_MANIFOLD,
+            "several fans of faces meet in vertex %u alone (one holds face %u), connectivity structures hold one; "
+            "`meshtool repair --split` separates them",
+            vertex, first_face_of_vertex(mesh, vertex));
     }
     mt_vertex_fans_destroy(context, fans);
     mt_edge_pairs_destroy(context, pairs);
