@@ -1,0 +1,18 @@
+/* The manifold check once more, straight from the words of the contract, in any time. */
+#ifndef TESTS_SUPPORT_MANIFOLD_REFERENCE_H
+#define TESTS_SUPPORT_MANIFOLD_REFERENCE_H
+
+#include "tests/support/fixture.h"
+
+#include <meshtool/manifold.h>
+
+/* Fills every field of the report but the lists, for a mesh of a few hundred corners; area and volume are those of fans
+ * of triangles, right for convex planar faces only. */
+void test_manifold_reference(const mt_mesh *mesh, mt_manifold_report *report);
+
+/* Whether the element is a defect of that kind by the same words: a vertex, a face, or the edge of two vertices. */
+bool test_vertex_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index vertex);
+bool test_face_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index face);
+bool test_edge_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index a, mt_index b);
+
+#endif
