@@ -132,15 +132,22 @@ static void list_edge(defect_list *list, mt_defect_kind kind, mt_index corner, m
     mt_defect *defect = begin_defect(list, kind);
     add_vertex(list, defect, tail);
     add_vertex(list, defect, head);
-    mt_index side = corner, last = MT_NONE;
-    do {
-        mt_index face = mt_mesh_corner_face(list->check->mesh, side);
-        if (face != last) {
-            add_face(list, defect, face);
+    mt_index few[8];
+    mt_index *faces = few;
+    mt_index count = mt_edge_faces(list->check->mesh, list->check->pairs, corner, 8, few);
+    if (count > 8) {
+        faces = mt_allocate_array(list->check->context, count, sizeof *faces);
+        list->failed = list->failed || !faces;
+        count = faces ? mt_edge_faces(list->check->mesh, list->check->pairs, corner, count, faces) : 0;
+    }
+    for (mt_index i = 0; i < count; i++) {
+        if (i == 0 || faces[i] != faces[i - 1]) {
+            add_face(list, defect, faces[i]);
         }
-        last = face;
-        side = list->check->pairs->next_side[side];
-    } while (side != corner);
+    }
+    if (faces != few) {
+        mt_free(list->check->context, faces);
+    }
 }
 
 static void list_edges(defect_list *list, mt_defect_kind kind, mt_edge_class edge_class)

@@ -135,19 +135,15 @@ static void side_ends(const mt_mesh *mesh, mt_index corner, mt_index ends[2])
 /* "4, 9, 13", cut short where there are many; returns the number of sides on the edge. */
 static mt_index list_faces(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_index first, char *text, size_t room)
 {
-    mt_index count = 0;
+    mt_index faces[6];
+    mt_index count = mt_edge_faces(mesh, pairs, first, 6, faces);
     size_t length = 0;
-    mt_index corner = first;
-    do {
-        if (count < 6) {
-            length += (size_t)snprintf(text + length, room - length, "%s%u", count ? ", " : "",
-                                       mt_mesh_corner_face(mesh, corner));
-        } else if (count == 6) {
-            snprintf(text + length, room - length, ", ...");
-        }
-        count++;
-        corner = pairs->next_side[corner];
-    } while (corner != first);
+    for (mt_index i = 0; i < count && i < 6; i++) {
+        length += (size_t)snprintf(text + length, room - length, "%s%u", i ? ", " : "", faces[i]);
+    }
+    if (count > 6) {
+        snprintf(text + length, room - length, ", ...");
+    }
     return count;
 }
 

@@ -83,6 +83,7 @@ static void join_signed_faces(joining *job, mt_index a, mt_index b, bool against
     job->unions++;
 }
 
+/* A ring of sides descends, so every side but the first of an edge leads to one before. */
 static void join_all(joining *job)
 {
     const mt_index *next_side = job->pairs->next_side;
@@ -107,22 +108,6 @@ static void join_all_signed(joining *job)
             if (other < c) {
                 bool against = mt_edge_class_of(mesh, job->pairs, c) == MT_EDGE_MISORIENTED;
                 join_signed_faces(job, face, face_of(job, other), against, c);
-            }
-        }
-    }
-}
-
-/* Rings of three and more sides descend only once, so their other steps are joined here. */
-static void join_rings(joining *job)
-{
-    const mt_index *next_side = job->pairs->next_side;
-    for (mt_index c = 0; c < job->pairs->corner_count; c++) {
-        mt_index other = next_side[c];
-        if (other != MT_NONE && other > c && next_side[other] != c) {
-            if (job->turned) {
-                join_signed_faces(job, face_of(job, c), face_of(job, other), false, c);
-            } else {
-                join_faces(job, face_of(job, c), face_of(job, other));
             }
         }
     }
@@ -164,9 +149,6 @@ static void join_faces_of_mesh(joining *job)
         join_all_signed(job);
     } else {
         join_all(job);
-    }
-    if (job->pairs->non_manifold_count) {
-        join_rings(job);
     }
 }
 

@@ -20,7 +20,7 @@ static void sort_corners(mt_index *corners, mt_index count)
     }
 }
 
-/* Links the sides in `members`, three or more, into an ascending ring. */
+/* Links the sides in `members`, three or more, into a descending ring. */
 static void link_ring(const edge_side *sides, uint64_t members, mt_index *next_side)
 {
     mt_index corners[SMALL_BUCKET];
@@ -30,9 +30,9 @@ static void link_ring(const edge_side *sides, uint64_t members, mt_index *next_s
     }
     sort_corners(corners, count);
     for (mt_index i = 0; i + 1 < count; i++) {
-        next_side[corners[i]] = corners[i + 1];
+        next_side[corners[i + 1]] = corners[i];
     }
-    next_side[corners[count - 1]] = corners[0];
+    next_side[corners[0]] = corners[count - 1];
 }
 
 static void link_small(const edge_side *sides, mt_index up_count, mt_index count, mt_index *next_side,
@@ -113,11 +113,11 @@ static void link_runs(side_run up, side_run down, mt_index *next_side)
         if (first == MT_NONE) {
             first = corner;
         } else {
-            next_side[last] = corner;
+            next_side[corner] = last;
         }
         last = corner;
     }
-    next_side[last] = first;
+    next_side[first] = last;
 }
 
 static void count_runs(side_run up, side_run down, edge_tally *tally)

@@ -9,7 +9,7 @@
 typedef struct chain_entry {
     mt_index other; /* the higher vertex */
     mt_index link;  /* the next edge of the lower vertex, MT_NONE at the end */
-    mt_index last;  /* what the caller keeps of the edge's last side */
+    mt_index note;  /* the caller's */
 } chain_entry;
 
 typedef struct edge_chains {

@@ -16,23 +16,24 @@ typedef struct chain_pairing {
     mt_index regular, misoriented, non_manifold;
 } chain_pairing;
 
-/* Hangs a further side into the ring of its edge. Sides come in the order of corners, so rings ascend by themselves. */
-MT_ALWAYS_INLINE void extend_ring(chain_pairing *pairing, mt_index last, mt_index tail, mt_index corner)
+/* Hangs a further side into the ring of its edge. Sides come in the order of corners, so rings descend by themselves.
+ */
+MT_ALWAYS_INLINE void extend_ring(chain_pairing *pairing, mt_index first, mt_index tail, mt_index corner)
 {
     mt_index *next_side = pairing->next_side;
-    mt_index first = next_side[last];
+    mt_index last = next_side[first];
     mt_index same = pairing->corner_vertices[first] == tail;
     if (first == last) {
         pairing->misoriented += same;
         pairing->regular += 1 - same;
-    } else if (next_side[first] == last) {
+    } else if (next_side[last] == first) {
         mt_index was_same = pairing->corner_vertices[first] == pairing->corner_vertices[last];
         pairing->misoriented -= was_same;
         pairing->regular -= 1 - was_same;
         pairing->non_manifold++;
     }
-    next_side[last] = corner;
-    next_side[corner] = first;
+    next_side[first] = corner;
+    next_side[corner] = last;
 }
 
 MT_ALWAYS_INLINE void add_side(chain_pairing *pairing, mt_index tail, mt_index head, mt_index corner)
@@ -45,11 +46,11 @@ MT_ALWAYS_INLINE void add_side(chain_pairing *pairing, mt_index tail, mt_index h
     mt_index edge = edge_chain_find(&pairing->chains, tail < head ? tail : head, tail < head ? head : tail);
     chain_entry *entry = &pairing->chains.entries[edge];
     if (edge == count) {
+        entry->note = corner;
         pairing->next_side[corner] = corner;
     } else {
-        extend_ring(pairing, entry->last, tail, corner);
+        extend_ring(pairing, entry->note, tail, corner);
     }
-    entry->last = corner;
 }
 
 MT_ALWAYS_INLINE void add_face(chain_pairing *pairing, const mt_mesh *mesh, mt_index face)
@@ -161,4 +162,20 @@ void mt_edge_pairs_destroy(mt_context *context, mt_edge_pairs *pairs)
         mt_free(context, pairs->next_side);
         mt_free(context, pairs);
     }
+}
+
+mt_index mt_edge_faces(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_index first, mt_index room, mt_index *faces)
+{
+    mt_index count = 1;
+    for (mt_index c = pairs->next_side[first]; c != first; c = pairs->next_side[c]) {
+        count++;
+    }
+    mt_index c = first;
+    for (mt_index rank = count; rank-- > 0;) {
+        c = pairs->next_side[c];
+        if (rank < room) {
+            faces[rank] = mt_mesh_corner_face(mesh, c);
+        }
+    }
+    return count;
 }

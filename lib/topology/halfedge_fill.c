@@ -175,12 +175,12 @@ MT_ALWAYS_INLINE mt_index place_side(chain_filling *fill, mt_index tail, mt_inde
     mt_index edge = edge_chain_find(&fill->chains, tail < head ? tail : head, tail < head ? head : tail);
     chain_entry *entry = &fill->chains.entries[edge];
     if (edge == count) {
-        entry->last = tail;
+        entry->note = tail;
         fill->halfedges[2 * edge + 1] = (mt_halfedge){MT_NONE, tail, MT_NONE};
         return 2 * edge;
     }
-    fill->fits &= entry->last == head;
-    entry->last = MT_NONE;
+    fill->fits &= entry->note == head;
+    entry->note = MT_NONE;
     return 2 * edge + 1;
 }
 

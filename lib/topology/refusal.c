@@ -86,20 +86,15 @@ static mt_index first_corner_of_class(const mt_mesh *mesh, const mt_edge_pairs *
 /* "4, 9, 13", cut short where there are many; returns how many sides the edge has. */
 static mt_index list_faces(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_index first, char text[FACE_TEXT])
 {
-    mt_index count = 0;
+    mt_index faces[FACES_NAMED];
+    mt_index count = mt_edge_faces(mesh, pairs, first, FACES_NAMED, faces);
     int length = 0;
-    mt_index corner = first;
-    do {
-        if (count < FACES_NAMED) {
-            const char *comma = count ? ", " : "";
-            mt_index face = mt_mesh_corner_face(mesh, corner);
-            length += snprintf(text + length, (size_t)(FACE_TEXT - length), "%s%u", comma, face);
-        } else if (count == FACES_NAMED) {
-            snprintf(text + length, (size_t)(FACE_TEXT - length), ", ...");
-        }
-        count++;
-        corner = pairs->next_side[corner];
-    } while (corner != first);
+    for (mt_index i = 0; i < count && i < FACES_NAMED; i++) {
+        length += snprintf(text + length, (size_t)(FACE_TEXT - length), "%s%u", i ? ", " : "", faces[i]);
+    }
+    if (count > FACES_NAMED) {
+        snprintf(text + length, (size_t)(FACE_TEXT - length), ", ...");
+    }
     return count;
 }
 

@@ -28,8 +28,8 @@ typedef struct mt_edge_pairs {
     mt_index misoriented_count;
     mt_index non_manifold_count;
     mt_index degenerate_side_count;
-    mt_index *next_side; /* per corner the next corner with the same edge, in ascending order, and from the last
-                            to the first: itself at a boundary, the twin at a regular edge; MT_NONE for a = b */
+    mt_index *next_side; /* per corner the corner before it with the same edge, in descending order, and from the
+                            first to the last: itself at a boundary, the twin at a regular edge; MT_NONE for a = b */
 } mt_edge_pairs;
 
 /* Pairs all sides; *out is NULL on failure. O(vertices + corners) time whatever the valences, in parallel with
@@ -62,19 +62,17 @@ static inline mt_index mt_edge_twin(const mt_mesh *mesh, const mt_edge_pairs *pa
     return mt_edge_class_of(mesh, pairs, corner) == MT_EDGE_REGULAR ? pairs->next_side[corner] : MT_NONE;
 }
 
-/* Whether the corner is the lowest of its edge: edges are numbered in the order of these. The ring ascends but
- * for one step down, from its last side to its first, so one step back up to `corner` decides. */
+/* Whether the corner is the lowest of its edge: edges are numbered in the order of these. The ring descends but
+ * for the step up from its first side to its last. O(1). */
 static inline bool mt_edge_is_first(const mt_edge_pairs *pairs, mt_index corner)
 {
-    mt_index c = pairs->next_side[corner];
-    if (c == MT_NONE || c < corner) {
-        return false;
-    }
-    while (c > corner) {
-        c = pairs->next_side[c];
-    }
-    return c == corner;
+    mt_index other = pairs->next_side[corner];
+    return other != MT_NONE && other >= corner;
 }
+
+/* Stores the faces of the edge of a first corner in `faces`, ascending, at most `room` of them; one that has the edge
+ * twice comes twice. Returns how many sides the edge has. */
+mt_index mt_edge_faces(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_index first, mt_index room, mt_index *faces);
 
 #ifdef __cplusplus
 }
