@@ -23,8 +23,6 @@ void mt_look_init(mt_look *look, const mt_frame *frame, const mt_corner_normals 
     look->back_color = mt_linear_color(&look->surface, 0.58, 0.68, 0.80);
     look->back_tint = mt_vec3_make(0.62, 0.72, 0.86);
     look->wire_color = mt_linear_color(&look->surface, 0.20, 0.25, 0.32);
-    look->line_mark_color = mt_linear_color(&look->surface, 0.86, 0.10, 0.16);
-    look->dot_mark_color = mt_linear_color(&look->surface, 0.98, 0.55, 0.05);
 }
 
 static mt_vec3 toward_eye(const mt_look *look, double x, double y)

@@ -17,7 +17,6 @@ typedef struct mt_look {
     mt_vec3 front_color, back_color; /* of a mesh without colours */
     mt_vec3 back_tint;               /* factor on the mesh's own colours, seen from behind */
     mt_vec3 wire_color;
-    mt_vec3 line_mark_color, dot_mark_color;
 } mt_look;
 
 typedef struct mt_facet {

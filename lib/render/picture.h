@@ -16,9 +16,10 @@ typedef struct mt_backdrop {
 typedef struct mt_picture {
     const mt_frame *frame;
     const mt_look *look;
-    mt_stroke_set strokes; /* of the mesh */
-    mt_stroke_set marks;   /* over it; count 0: none */
-    mt_bins bins;          /* triangles, then strokes */
+    mt_stroke_set strokes;            /* of the mesh */
+    mt_stroke_set marks;              /* over it; count 0: none */
+    const unsigned char *mark_colors; /* sRGB triples, one a mark */
+    mt_bins bins;                     /* triangles, then strokes */
     mt_bins mark_bins;
     mt_backdrop backdrop;
     mt_image *image;

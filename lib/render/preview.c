@@ -29,6 +29,7 @@ typedef struct job {
     mt_frame frame;
     mt_look look;
     mt_stroke *marks; /* dots, then lines */
+    unsigned char *mark_colors;
     mt_index mark_count;
     mt_picture picture;
 } job;
@@ -64,8 +65,16 @@ static mt_status check_options(mt_context *context, const mt_mesh *mesh, const m
     return options->samples ? check_samples(context, options->samples) : MT_OK;
 }
 
+/* One mark in the color that `colors` holds at `color`, or in the usual one. */
+static void append_mark(job *j, mt_stroke mark, const unsigned char *colors, size_t color, const unsigned char usual[3])
+{
+    memcpy(j->mark_colors + 3 * (size_t)j->mark_count, colors ? colors + 3 * color : usual, 3);
+    j->marks[j->mark_count++] = mark;
+}
+
 static mt_status collect_marks(mt_context *context, job *j)
 {
+    static const unsigned char orange[3] = {250, 140, 13}, red[3] = {219, 26, 41};
     const mt_preview_options *options = j->options;
     mt_index vertex_count = options->vertex_marks ? j->model.mesh->vertex_count : 0, dot_count = 0;
     for (mt_index vertex = 0; vertex < vertex_count; vertex++) {
@@ -77,16 +86,18 @@ static mt_status collect_marks(mt_context *context, job *j)
                        (unsigned long long)count);
     }
     j->marks = (mt_stroke *)mt_allocate_array(context, count, sizeof *j->marks);
-    if (!j->marks) {
+    j->mark_colors = (unsigned char *)mt_allocate_array(context, count, 3);
+    if (!j->marks || !j->mark_colors) {
         return mt_context_error(context)->status;
     }
     for (mt_index vertex = 0; vertex < vertex_count; vertex++) {
         if (options->vertex_marks[vertex]) {
-            j->marks[j->mark_count++] = (mt_stroke){vertex, vertex};
+            append_mark(j, (mt_stroke){vertex, vertex}, options->vertex_mark_colors, vertex, orange);
         }
     }
     for (size_t i = 0; i < options->edge_mark_count; i++) {
-        j->marks[j->mark_count++] = (mt_stroke){options->edge_marks[2 * i], options->edge_marks[2 * i + 1]};
+        mt_stroke edge = {options->edge_marks[2 * i], options->edge_marks[2 * i + 1]};
+        append_mark(j, edge, options->edge_mark_colors, i, red);
     }
     return MT_OK;
 }
@@ -161,6 +172,7 @@ static void set_strokes(job *j)
     marks.nearness = 1.002;
     j->picture.strokes = strokes;
     j->picture.marks = marks;
+    j->picture.mark_colors = j->mark_colors;
 }
 
 static bool is_faint(const job *j)
@@ -229,6 +241,7 @@ mt_status mt_preview(mt_context *context, const mt_mesh *mesh, const mt_preview_
     mt_image *image = NULL;
     status = run(context, mesh, &j, &image);
     mt_free(context, j.marks);
+    mt_free(context, j.mark_colors);
     mt_frame_release(context, &j.frame);
     mt_corner_normals_release(context, &j.normals);
     mt_model_release(context, &j.model);

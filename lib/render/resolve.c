@@ -108,8 +108,8 @@ static void add_marks(const mt_picture *picture, const mt_index *marks, light_su
     const mt_look *look = picture->look;
     for (unsigned sample = 0; sample < picture->frame->sample_count; sample++) {
         if (marks[sample] != MT_NONE) {
-            const mt_stroke *stroke = &picture->marks.strokes[marks[sample] / 2];
-            mt_vec3 color = stroke->a == stroke->b ? look->dot_mark_color : look->line_mark_color;
+            const unsigned char *rgb = picture->mark_colors + 3 * (size_t)(marks[sample] / 2);
+            mt_vec3 color = mt_linear_color(&look->surface, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
             add(sum, color, mark_opacity(marks[sample]));
         }
     }

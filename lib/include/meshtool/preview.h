@@ -26,6 +26,8 @@ typedef struct mt_preview_options {
     const unsigned char *vertex_marks; /* not 0: the vertex is drawn as a dot; NULL: none */
     const mt_index *edge_marks; /* pairs of vertices drawn as lines over the mesh; what is hidden shows faintly */
     size_t edge_mark_count;
+    const unsigned char *vertex_mark_colors; /* sRGB triples, one a vertex (marked or not); NULL: orange */
+    const unsigned char *edge_mark_colors;   /* sRGB triples, one a marked edge; NULL: red */
 } mt_preview_options;
 
 /* Draws the mesh, seen in perspective from three quarters above; options may be NULL. The up axis is the mesh's.
