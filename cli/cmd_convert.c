@@ -9,15 +9,22 @@
 
 #include <string.h>
 
+/* All transformations that were given, in their order. */
+typedef struct convert_move {
+    mt_transform transform;
+    bool is_given;
+} convert_move;
+
 typedef struct convert_settings {
     cli_common common;
-    mt_transform transform; /* all that were given, in their order */
+    convert_move move;
     bool weld, triangulate;
 } convert_settings;
 
-static void append(mt_transform *transform, mt_transform next)
+static void append(convert_move *move, mt_transform next)
 {
-    *transform = mt_transform_then(transform, &next);
+    move->transform = mt_transform_then(&move->transform, &next);
+    move->is_given = true;
 }
 
 static bool parse_scale(const cli_option *option, const char *text, void *value)
@@ -60,7 +67,7 @@ static bool parse_rotate(const cli_option *option, const char *text, void *value
 
 static const cli_option options[] = {
     {.name = "scale",
-     .offset = offsetof(convert_settings, transform),
+     .offset = offsetof(convert_settings, move),
      .parse = parse_scale,
      .argument = "F",
      .expects = "a number above 0",
@@ -68,13 +75,13 @@ static const cli_option options[] = {
      .maximum = 1e300,
      .help = "multiply positions by F"},
     {.name = "rotate",
-     .offset = offsetof(convert_settings, transform),
+     .offset = offsetof(convert_settings, move),
      .parse = parse_rotate,
      .argument = "AXIS,DEG",
      .expects = "an axis (x, y, z or three numbers) and degrees, such as z,90 or 1,1,0,45",
      .help = "turn about x, y, z or an axis X,Y,Z, counter-clockwise as it points at you"},
     {.name = "translate",
-     .offset = offsetof(convert_settings, transform),
+     .offset = offsetof(convert_settings, move),
      .parse = parse_translate,
      .argument = "X,Y,Z",
      .expects = "three numbers, such as 0,-1.5,2",
@@ -116,9 +123,7 @@ static cli_exit change(const cli_job *job, mt_mesh **mesh)
     if (code != CLI_EXIT_DONE) {
         return code;
     }
-    mt_transform identity = mt_transform_identity();
-    if (memcmp(&settings->transform, &identity, sizeof identity) != 0 &&
-        mt_mesh_transform(job->context, *mesh, &settings->transform) != MT_OK) {
+    if (settings->move.is_given && mt_mesh_transform(job->context, *mesh, &settings->move.transform) != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }
     return settings->triangulate ? triangulate(job, mesh) : CLI_EXIT_DONE;
@@ -167,7 +172,7 @@ static cli_exit run(const cli_job *job)
     return code;
 }
 
-static const convert_settings defaults = {.transform = {.linear = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+static const convert_settings defaults = {.move = {.transform = {.linear = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}};
 
 const cli_command cli_convert_command = {
     .name = "convert",

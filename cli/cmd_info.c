@@ -193,7 +193,7 @@ static void print_faces(const mt_mesh *mesh)
     }
     printf("%s, %s", cli_counted(mesh->vertex_count, "vertex").text, cli_counted(mesh->face_count, "face").text);
     if (mesh->face_count && least == most) {
-        printf(", all of %u sides", most);
+        printf(most == 3 ? ", all triangles" : most == 4 ? ", all quads" : ", all of %u sides", most);
     } else if (mesh->face_count) {
         printf(" of %u to %u sides", least, most);
     }
@@ -246,7 +246,8 @@ static void print_text(const char *file, const mt_mesh_format *format, const mt_
     info_size sizes[SIZE_COUNT];
     measure(mesh, sizes);
     puts("Positions and faces take, by formula:");
-    for (size_t i = 0; i < SIZE_COUNT; i++) {
+    size_t told = triangle_count(mesh) == mesh->face_count ? SIZE_COUNT - 1 : SIZE_COUNT; /* polygons are triangles */
+    for (size_t i = 0; i < told; i++) {
         printf("  %-20s %15s numbers %12s\n", sizes[i].words, cli_count((int64_t)sizes[i].units).text,
                cli_bytes(sizes[i].bytes).text);
     }

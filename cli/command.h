@@ -50,6 +50,7 @@ cli_exit cli_run(const cli_command *command, int argument_count, const char **ar
 cli_exit cli_for_each_file(const cli_job *job, cli_exit (*work)(const cli_job *job, const char *file));
 
 /* The commands' records. */
+extern const cli_command cli_check_manifold_command;
 extern const cli_command cli_convert_command;
 extern const cli_command cli_formats_command;
 extern const cli_command cli_generate_command;

@@ -1,5 +1,7 @@
 #include "common.h"
 
+#include <assert.h>
+
 #define VALUE(field) offsetof(cli_common, field)
 
 static const char *const precision_choices[] = {"auto", "f32", "f64", NULL};
@@ -114,6 +116,7 @@ void cli_option_tables(const cli_option *own, unsigned groups, const cli_option 
         {CLI_GROUP_READ, read_options},     {CLI_GROUP_PRECISION, precision_options}, {CLI_GROUP_WORK, work_options},
         {CLI_GROUP_EVERY, every_options},
     };
+    static_assert(sizeof known / sizeof known[0] == CLI_GROUP_COUNT, "the room for tables follows the groups");
     size_t count = 0;
     if (own) {
         tables[count++] = own;

@@ -30,6 +30,10 @@ typedef enum cli_group {
     CLI_GROUP_EVERY = 1u << 6 /* --json, -q, -v, --help */
 } cli_group;
 
+#define CLI_GROUP_COUNT 7
+/* Room for a command's own table, those of all groups, and the NULL at the end. */
+#define CLI_TABLE_ROOM (CLI_GROUP_COUNT + 2)
+
 /* Fills `tables` with the command's own table (may be NULL) and those of its groups, a NULL at the end. */
 void cli_option_tables(const cli_option *own, unsigned groups, const cli_option *tables[CLI_TABLE_ROOM]);
 

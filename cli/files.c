@@ -1,5 +1,6 @@
 #include "files.h"
 
+#include "line.h"
 #include "message.h"
 #include "progress.h"
 #include "quantity.h"
@@ -99,18 +100,27 @@ static mt_mesh_write_options mesh_write_options(const cli_job *job)
     return options;
 }
 
-static bool has_encoding(const mt_mesh_format *format, mt_encoding encoding)
+static cli_exit check_encoding(const cli_job *job, const mt_mesh_format *format)
 {
-    switch (encoding) {
-    case MT_ENCODING_ASCII:
-        return format->has_ascii;
-    case MT_ENCODING_BINARY:
-        return format->has_binary;
-    case MT_ENCODING_BINARY_BIG:
-        return format->has_binary_big;
-    default:
-        return true;
+    const struct {
+        mt_encoding encoding;
+        const char *name;
+        bool is_held;
+    } encodings[] = {
+        {MT_ENCODING_ASCII, "ascii", format->has_ascii},
+        {MT_ENCODING_BINARY, "binary", format->has_binary},
+        {MT_ENCODING_BINARY_BIG, "binary-be", format->has_binary_big},
+    };
+    cli_line known = {0};
+    for (size_t i = 0; i < sizeof encodings / sizeof encodings[0]; i++) {
+        if (encodings[i].is_held && encodings[i].encoding == job->common->encoding) {
+            return CLI_EXIT_DONE;
+        }
+        if (encodings[i].is_held) {
+            cli_line_add(&known, "%s%s", known.length ? ", " : "", encodings[i].name);
+        }
     }
+    return cli_wrong_usage(job->command, "--encoding: %s files have only %s", format->name, known.text);
 }
 
 cli_exit cli_check_mesh_output(const cli_job *job, const char *path, const mt_mesh_format **format)
@@ -124,11 +134,7 @@ cli_exit cli_check_mesh_output(const cli_job *job, const char *path, const mt_me
     if (!*format) {
         return cli_report_failure(job, path);
     }
-    if (!has_encoding(*format, options.encoding)) {
-        return cli_wrong_usage(job->command, "%s files do not have the encoding that --encoding asks for",
-                               (*format)->name);
-    }
-    return CLI_EXIT_DONE;
+    return options.encoding == MT_ENCODING_DEFAULT ? CLI_EXIT_DONE : check_encoding(job, *format);
 }
 
 cli_exit cli_check_image_output(const cli_job *job, const char *path, const mt_image_format **format)
@@ -156,17 +162,18 @@ cli_exit cli_read_mesh(const cli_job *job, const char *path, mt_mesh **out, cons
     return CLI_EXIT_DONE;
 }
 
-static void warn_of_loss(const cli_job *job, const char *path, const mt_loss *loss)
+static void warn_of_loss(const cli_job *job, const char *path, const mt_mesh_format *format, const mt_loss *loss)
 {
     if (loss->count == 0 || job->common->quiet) {
         return;
     }
-    cli_progress_clear();
-    fprintf(stderr, "meshtool: warning: %s: its format cannot hold ", path);
+    cli_line line = {0};
     for (size_t i = 0; i < loss->count; i++) {
-        fprintf(stderr, "%s%s", i == 0 ? "" : i + 1 < loss->count ? ", " : " and ", loss->items[i]);
+        cli_line_add_item(&line, i, loss->count, loss->items[i]);
     }
-    fputs(loss->count == 1 ? "; this is lost\n" : "; these are lost\n", stderr);
+    cli_progress_clear();
+    fprintf(stderr, "meshtool: warning: %s: %s cannot hold %s; %s\n", path, format->title, line.text,
+            loss->count == 1 ? "this is lost" : "these are lost");
 }
 
 cli_exit cli_write_mesh(const cli_job *job, const mt_mesh *mesh, const char *path, json_t **lost)
@@ -176,7 +183,7 @@ cli_exit cli_write_mesh(const cli_job *job, const mt_mesh *mesh, const char *pat
     if (mt_mesh_write_file(job->context, mesh, path, &options, &loss) != MT_OK) {
         return cli_report_failure(job, path);
     }
-    warn_of_loss(job, path, &loss);
+    warn_of_loss(job, path, mt_mesh_format_for_output(job->context, path, &options), &loss);
     cli_say(job, "%s: wrote %s and %s", path, cli_counted(mesh->vertex_count, "vertex").text,
             cli_counted(mesh->face_count, "face").text);
     if (lost) {

@@ -36,5 +36,5 @@ int main(int argument_count, char **arguments)
     if (code == CLI_EXIT_INTERRUPT && cli_signal_received()) {
         return 128 + cli_signal_received();
     }
-    return code;
+    return (int)code;
 }

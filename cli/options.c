@@ -110,7 +110,7 @@ bool cli_options_parse(int argument_count, const char **arguments, const cli_opt
 {
     memset(out, 0, sizeof *out);
     size_t count = count_options(tables);
-    const cli_option **by_number = cli_allocate(count + 1, sizeof *by_number);
+    const cli_option **by_number = cli_allocate(count + 1, sizeof(cli_option *));
     struct poptOption *records = make_parser_table(tables, by_number);
     poptContext parser = poptGetContext(NULL, argument_count, arguments, records, 0);
     out->parser = parser;

@@ -35,9 +35,6 @@ bool cli_scan_number(const char **text, double *number);
 /* `count` finite numbers with commas between them, and nothing more. */
 bool cli_scan_numbers(const char *text, size_t count, double *numbers);
 
-/* The most tables that one command can have: its own, and the groups of common options. */
-#define CLI_TABLE_ROOM 8
-
 /* What parsing leaves: the operands, and the memory behind them and the values. */
 typedef struct cli_arguments {
     const char *const *operands;

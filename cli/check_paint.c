@@ -1,0 +1,228 @@
+/* check-manifold --paint: the mesh, or a picture of it, with each kind of defect in its colour. */
+#include "check.h"
+#include "line.h"
+#include "message.h"
+#include "progress.h"
+#include "quantity.h"
+
+#include <meshtool/preview.h>
+
+#include <string.h>
+
+typedef struct defect_color {
+    const char *name;
+    unsigned char rgb[3];
+} defect_color;
+
+static const defect_color colors[MT_DEFECT_KIND_COUNT] = {
+    [MT_DEFECT_NON_FINITE_VERTEX] = {"black", {0, 0, 0}},      [MT_DEFECT_DEGENERATE_FACE] = {"magenta", {230, 0, 200}},
+    [MT_DEFECT_DUPLICATE_FACE] = {"orange", {255, 140, 0}},    [MT_DEFECT_NON_MANIFOLD_EDGE] = {"red", {220, 20, 20}},
+    [MT_DEFECT_NON_MANIFOLD_VERTEX] = {"blue", {30, 70, 230}}, [MT_DEFECT_MISORIENTED_EDGE] = {"yellow", {240, 210, 0}},
+    [MT_DEFECT_ZERO_AREA_FACE] = {"purple", {120, 40, 160}},   [MT_DEFECT_ISOLATED_VERTEX] = {"cyan", {0, 190, 210}},
+    [MT_DEFECT_BOUNDARY_EDGE] = {"green", {20, 150, 60}},
+};
+
+static const unsigned char neutral[3] = {205, 205, 205};
+
+/* Colours of faces and vertices, and the edges to mark. */
+typedef struct defect_paint {
+    unsigned char *faces, *vertices, *marked_vertices;
+    mt_index *edges;
+    unsigned char *edge_colors;
+    size_t edge_count;
+} defect_paint;
+
+static void release(mt_context *context, defect_paint *paint)
+{
+    mt_free(context, paint->faces);
+    mt_free(context, paint->vertices);
+    mt_free(context, paint->marked_vertices);
+    mt_free(context, paint->edges);
+    mt_free(context, paint->edge_colors);
+}
+
+static unsigned char *allocate_neutral(mt_context *context, mt_index count)
+{
+    unsigned char *bytes = mt_allocate_array(context, count, 3);
+    for (size_t i = 0; bytes && i < count; i++) {
+        memcpy(bytes + 3 * i, neutral, 3);
+    }
+    return bytes;
+}
+
+static bool allocate(mt_context *context, const cli_check *check, defect_paint *out)
+{
+    memset(out, 0, sizeof *out);
+    out->faces = allocate_neutral(context, check->mesh->face_count);
+    out->vertices = allocate_neutral(context, check->mesh->vertex_count);
+    out->marked_vertices = mt_allocate_zeroed(context, check->mesh->vertex_count);
+    out->edges = mt_allocate_array(context, check->report->defect_list_count, 2 * sizeof *out->edges);
+    out->edge_colors = mt_allocate_array(context, check->report->defect_list_count, 3);
+    if (out->faces && out->vertices && out->marked_vertices && out->edges && out->edge_colors) {
+        return true;
+    }
+    release(context, out);
+    return false;
+}
+
+static bool marks_edge(mt_defect_kind kind)
+{
+    return kind == MT_DEFECT_NON_MANIFOLD_EDGE || kind == MT_DEFECT_MISORIENTED_EDGE || kind == MT_DEFECT_BOUNDARY_EDGE;
+}
+
+static bool marks_vertex(mt_defect_kind kind)
+{
+    return kind == MT_DEFECT_NON_MANIFOLD_VERTEX || kind == MT_DEFECT_ISOLATED_VERTEX;
+}
+
+/* A hole's rim is no fault of the faces beside it. A picture shows by its lines where the orientation changes, and by
+ * its light on which side it does; a mesh has its faces' colors alone. */
+static bool paints_faces(mt_defect_kind kind, bool for_picture)
+{
+    return kind != MT_DEFECT_BOUNDARY_EDGE && !(for_picture && kind == MT_DEFECT_MISORIENTED_EDGE);
+}
+
+static void paint_defect(const mt_defect *defect, bool for_picture, defect_paint *paint)
+{
+    const unsigned char *color = colors[defect->kind].rgb;
+    mt_index face_count = paints_faces(defect->kind, for_picture) ? defect->face_count : 0;
+    for (mt_index i = 0; i < face_count; i++) {
+        memcpy(paint->faces + 3 * (size_t)defect->faces[i], color, 3);
+    }
+    for (mt_index i = 0; i < defect->vertex_count; i++) {
+        memcpy(paint->vertices + 3 * (size_t)defect->vertices[i], color, 3);
+    }
+    if (marks_edge(defect->kind)) {
+        memcpy(paint->edge_colors + 3 * paint->edge_count, color, 3);
+        memcpy(paint->edges + 2 * paint->edge_count++, defect->vertices, 2 * sizeof *paint->edges);
+    }
+    if (marks_vertex(defect->kind)) {
+        paint->marked_vertices[defect->vertices[0]] = 1;
+    }
+}
+
+/* The last to mend first, so that what is to be mended first is not painted over. */
+static void paint_all(const mt_manifold_report *report, bool for_picture, defect_paint *paint)
+{
+    for (size_t i = report->defect_list_count; i-- > 0;) {
+        paint_defect(&report->defects[i], for_picture, paint);
+    }
+}
+
+static void say_legend(const cli_job *job, const cli_check *check, const char *path)
+{
+    cli_line line = {0};
+    for (mt_defect_kind kind = 0; kind < MT_DEFECT_KIND_COUNT; kind++) {
+        mt_index count = check->report->defect_counts[kind];
+        if (count) {
+            cli_line_add(&line, "%s%s %s", line.length ? ", " : "", colors[kind].name,
+                         cli_counted(count, mt_defect_words(kind)).text);
+        }
+    }
+    if (!job->common->quiet) {
+        cli_progress_clear();
+        fprintf(stderr, "meshtool: %s: %s\n", path, line.length ? line.text : "nothing to colour");
+    }
+}
+
+static mt_status add_colors(mt_context *context, mt_mesh *mesh, mt_domain domain, const unsigned char *bytes)
+{
+    mt_attribute_layout layout = {
+        .name = "color",
+        .semantic = MT_SEMANTIC_COLOR,
+        .domain = domain,
+        .type = MT_U8,
+        .component_count = 3,
+        .value_count = mt_mesh_domain_count(mesh, domain),
+    };
+    mt_attribute *attribute = NULL;
+    mt_status status = mt_mesh_add_attribute(context, mesh, &layout, &attribute);
+    if (status == MT_OK) {
+        memcpy(attribute->values, bytes, 3 * (size_t)layout.value_count);
+    }
+    return status;
+}
+
+static void remove_colors(mt_mesh *mesh, mt_context *context)
+{
+    for (mt_index i = mesh->attribute_count; i-- > 0;) {
+        if (mesh->attributes[i].semantic == MT_SEMANTIC_COLOR) {
+            mt_mesh_remove_attribute(context, mesh, i);
+        }
+    }
+}
+
+static cli_exit write_painted(const cli_job *job, const cli_check *check, const defect_paint *paint, const char *path)
+{
+    mt_context *context = job->context;
+    mt_mesh *mesh = NULL;
+    mt_status status = mt_mesh_copy(context, check->mesh, &mesh);
+    if (status == MT_OK) {
+        remove_colors(mesh, context);
+        status = add_colors(context, mesh, MT_DOMAIN_VERTEX, paint->vertices);
+    }
+    if (status == MT_OK) {
+        status = add_colors(context, mesh, MT_DOMAIN_FACE, paint->faces);
+    }
+    cli_exit code = status == MT_OK ? cli_write_mesh(job, mesh, path, NULL) : cli_report_failure(job, check->file);
+    mt_mesh_destroy(context, mesh);
+    return code;
+}
+
+static cli_exit write_picture(const cli_job *job, const cli_check *check, const defect_paint *paint, const char *path)
+{
+    mt_preview_options how = {
+        .face_colors = paint->faces,
+        .vertex_marks = paint->marked_vertices,
+        .edge_marks = paint->edges,
+        .edge_mark_count = paint->edge_count,
+        .edge_mark_colors = paint->edge_colors,
+        .vertex_mark_colors = paint->vertices,
+    };
+    mt_image *image = NULL;
+    if (mt_preview(job->context, check->mesh, &how, &image) != MT_OK) {
+        return cli_report_failure(job, check->file);
+    }
+    cli_exit code = cli_write_image(job, image, path);
+    mt_image_destroy(job->context, image);
+    return code;
+}
+
+/* Whether the output is to be a picture, by --to or else by its extension. */
+static bool is_picture(const cli_job *job, const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    const char *extension = job->common->to ? cli_extension(job->common->to) : dot ? dot + 1 : "";
+    return mt_image_format_by_extension(extension) != NULL;
+}
+
+cli_exit cli_check_paint_output(const cli_job *job, const char *path)
+{
+    if (is_picture(job, path)) {
+        const mt_image_format *picture = NULL;
+        return cli_check_image_output(job, path, &picture);
+    }
+    const mt_mesh_format *format = NULL;
+    cli_exit code = cli_check_mesh_output(job, path, &format);
+    if (code == CLI_EXIT_DONE && !(format->abilities & MT_HOLDS_FACE_COLORS)) {
+        return cli_wrong_usage(job->command, "--paint: %s files hold no colours of faces; write a ply or a png",
+                               format->name);
+    }
+    return code;
+}
+
+cli_exit cli_check_paint(const cli_job *job, const cli_check *check, const char *path)
+{
+    defect_paint paint;
+    if (!allocate(job->context, check, &paint)) {
+        return cli_report_failure(job, check->file);
+    }
+    bool for_picture = is_picture(job, path);
+    paint_all(check->report, for_picture, &paint);
+    cli_exit code = for_picture ? write_picture(job, check, &paint, path) : write_painted(job, check, &paint, path);
+    if (code == CLI_EXIT_DONE) {
+        say_legend(job, check, path);
+    }
+    release(job->context, &paint);
+    return code;
+}
