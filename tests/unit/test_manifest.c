@@ -5,6 +5,8 @@
 #include "tests/support/reading.h"
 #include "tests/support/unit.h"
 
+#include <meshtool/manifold.h>
+
 #include <dirent.h>
 #include <stdio.h>
 #include <string.h>
@@ -28,6 +30,27 @@ static const char *class_of(const test_census *census)
         return "non-manifold";
     }
     return census->boundary_edges || census->faces == 0 ? "manifold-with-boundary" : "manifold";
+}
+
+/* The check counts what the census counts. */
+static void check_report(const test_csv *table, size_t row, mt_context *context, const mt_mesh *mesh,
+                         const test_census *census)
+{
+    static const char *const classes[] = {"manifold", "manifold-with-boundary", "non-manifold"};
+    mt_manifold_report report;
+    assert_int_equal(mt_check_manifold(context, mesh, NULL, &report), MT_OK);
+    expect_number(table, row, "edges", report.edge_count);
+    expect_number(table, row, "euler_characteristic", report.euler_characteristic);
+    expect_number(table, row, "components", report.component_count);
+    expect_number(table, row, "boundary_loops", report.boundary_loop_count);
+    assert_string_equal(classes[report.manifold_class], class_of(census));
+    assert_int_equal(report.defect_counts[MT_DEFECT_BOUNDARY_EDGE], census->boundary_edges);
+    assert_int_equal(report.defect_counts[MT_DEFECT_NON_MANIFOLD_EDGE], census->non_manifold_edges);
+    assert_int_equal(report.defect_counts[MT_DEFECT_MISORIENTED_EDGE], census->misoriented_edges);
+    assert_int_equal(report.defect_counts[MT_DEFECT_NON_MANIFOLD_VERTEX], census->non_manifold_vertices);
+    assert_int_equal(report.defect_counts[MT_DEFECT_DEGENERATE_FACE], census->degenerate_faces);
+    assert_int_equal(report.defect_counts[MT_DEFECT_ISOLATED_VERTEX], census->isolated_vertices);
+    mt_manifold_report_release(context, &report);
 }
 
 static void path_of(const char *folder, const test_csv *table, size_t row, char path[512])
@@ -58,6 +81,7 @@ static void check_mesh_row(const test_csv *table, size_t row)
         print_error("%s: is %s\n", path, class_of(&census));
         complaints++;
     }
+    check_report(table, row, reading.context, mesh, &census);
     mt_mesh_destroy(reading.context, mesh);
     test_reading_end(&reading);
 }
