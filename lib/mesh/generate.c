@@ -85,6 +85,15 @@ static mt_status check_options(mt_context *context, const mt_primitive *primitiv
     return MT_OK;
 }
 
+/* A mirrored zero is written as -0, which reads badly in text and helps nobody. */
+static void clear_signs_of_zeros(mt_mesh *mesh)
+{
+    double *positions = mesh->positions;
+    for (size_t i = 0; i < 3 * (size_t)mesh->vertex_count; i++) {
+        positions[i] += 0.0;
+    }
+}
+
 mt_status mt_generate(mt_context *context, const char *name, const mt_generate_options *options, mt_mesh **out)
 {
     static const mt_generate_options defaults = {0};
@@ -99,6 +108,9 @@ mt_status mt_generate(mt_context *context, const char *name, const mt_generate_o
         return status;
     }
     status = primitive->generate(context, options->resolution ? options->resolution : primitive->resolution, out);
+    if (status == MT_OK) {
+        clear_signs_of_zeros(*out);
+    }
     if (status == MT_OK && options->position_type == MT_F32) {
         status = mt_mesh_set_position_type(context, *out, MT_F32, NULL);
     }

@@ -123,6 +123,25 @@ static bool is_degenerate(const mt_mesh *mesh, mt_index face)
     return false;
 }
 
+/* A face that names a vertex more than once is one face at that vertex all the same. */
+static void join_within_faces(const mt_mesh *mesh, mt_index *corners)
+{
+    mt_index *last = malloc((mesh->vertex_count + 1) * sizeof *last);
+    assert_non_null(last);
+    memset(last, 0xff, mesh->vertex_count * sizeof *last);
+    for (mt_index face = 0; face < mesh->face_count; face++) {
+        mt_index begin = mt_mesh_face_begin(mesh, face), end = mt_mesh_face_end(mesh, face);
+        for (mt_index corner = begin; corner < end; corner++) {
+            mt_index *before = &last[mesh->corner_vertices[corner]];
+            if (*before != MT_NONE && *before >= begin) {
+                join(corners, *before, corner);
+            }
+            *before = corner;
+        }
+    }
+    free(last);
+}
+
 /* Vertices whose corners form more than one set, and those that have none. */
 static void count_vertices(const mt_mesh *mesh, test_census *census, mt_index *corners)
 {
@@ -166,6 +185,7 @@ test_census test_census_of(const mt_mesh *mesh)
     bool *on_rim = calloc(mesh->vertex_count + 1, sizeof *on_rim);
     assert_non_null(on_rim);
     count_edges(mesh, &census, corners, faces, rims, on_rim);
+    join_within_faces(mesh, corners);
     count_vertices(mesh, &census, corners);
     for (mt_index face = 0; face < mesh->face_count; face++) {
         census.components += set_of(faces, face) == face;
