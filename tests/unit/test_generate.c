@@ -129,6 +129,10 @@ static void test_every_kind_of_the_table(void **state)
                 mt_vec3 c = mt_mesh_position(mesh, mesh->corner_vertices[corner + 2]);
                 assert_false(mt_collinear(a, b, c));
             }
+            for (size_t k = 0; k < 3 * (size_t)mesh->vertex_count; k++) {
+                double coordinate = ((const double *)mesh->positions)[k];
+                assert_true(isfinite(coordinate) && (coordinate != 0 || !signbit(coordinate)));
+            }
             hashes[threads - 1] = test_mesh_hash(mesh);
             mt_mesh_destroy(context, mesh);
             test_context_end(context);
