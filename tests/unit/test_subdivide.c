@@ -299,17 +299,15 @@ static void test_renumbering_and_mirrors(void **state)
     on_cages(60, check_symmetry);
 }
 
-/* Large enough for several blocks of every loop. */
-static void test_threads_do_not_matter(void **state)
+static void expect_same_on_threads(mt_index columns, mt_index rows, unsigned level_count)
 {
-    (void)state;
     static const unsigned threads[] = {1, 2, 7};
     uint64_t hashes[3];
     for (unsigned i = 0; i < 3; i++) {
         test_random random = {5};
         mt_context *context = test_context_with_threads(threads[i]);
-        mt_mesh *cage = test_cage(context, &random, 120, 90, false);
-        mt_mesh *refined = subdivide(context, cage, 2);
+        mt_mesh *cage = test_cage(context, &random, columns, rows, false);
+        mt_mesh *refined = subdivide(context, cage, level_count);
         hashes[i] = test_mesh_hash(refined);
         mt_mesh_destroy(context, refined);
         mt_mesh_destroy(context, cage);
@@ -317,6 +315,14 @@ static void test_threads_do_not_matter(void **state)
     }
     assert_int_equal(hashes[0], hashes[1]);
     assert_int_equal(hashes[0], hashes[2]);
+}
+
+/* Large enough for several blocks of every loop: of polygons, and of refined quads. */
+static void test_threads_do_not_matter(void **state)
+{
+    (void)state;
+    expect_same_on_threads(300, 200, 1);
+    expect_same_on_threads(60, 50, 4);
 }
 
 static void check_precision(mt_context *context, test_random *random, mt_mesh *cage)
