@@ -7,13 +7,16 @@
  * yet. */
 #include <meshtool/subdivide.h>
 
-#include "lib/algorithms/subdivide_check.h"
 #include "lib/algorithms/subdivide_count.h"
 #include "lib/algorithms/subdivide_crease.h"
+#include "lib/algorithms/subdivide_rings.h"
+
+#include <meshtool/refusal.h>
 
 #include <string.h>
 
 #define TASK "subdividing"
+#define WHO_NEEDS "Catmull-Clark needs"
 
 static void release_state(mt_context *context, mt_subdivide_state *state)
 {
@@ -42,6 +45,16 @@ static mt_status check_sizes(mt_context *context, const mt_subdivide_state *stat
     return status;
 }
 
+static mt_status check_rings(mt_context *context, const mt_mesh *mesh, const mt_subdivide_topology *topology)
+{
+    mt_index count = 0;
+    mt_status status = mt_subdivide_count_ring_corners(context, topology, &count);
+    if (status != MT_OK || count == topology->corner_count) {
+        return status;
+    }
+    return mt_refuse_vertex(context, mesh, WHO_NEEDS);
+}
+
 /* Everything of level 0. */
 static mt_status begin_state(mt_context *context, const mt_edge_pairs *pairs, unsigned level_count,
                              mt_subdivide_state *state)
@@ -55,7 +68,7 @@ static mt_status begin_state(mt_context *context, const mt_edge_pairs *pairs, un
     mt_status status = mt_subdivide_topology_of_mesh(context, mesh, pairs, &state->topologies[0]);
     if (status == MT_OK) {
         state->topology_count = 1;
-        status = mt_subdivide_check_rings(context, &state->topologies[0]);
+        status = check_rings(context, mesh, &state->topologies[0]);
     }
     if (status == MT_OK) {
         status = mt_subdivide_creases_create(context, state);
@@ -294,7 +307,7 @@ static void warn_of_limits(mt_context *context, const mt_mesh *mesh)
 static mt_status subdivide_paired(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
                                   unsigned level_count, mt_mesh **out)
 {
-    mt_status status = mt_subdivide_check_edges(context, mesh, pairs);
+    mt_status status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
     if (status != MT_OK) {
         return status;
     }

@@ -39,6 +39,20 @@ static void scan_triangles(void *user, uint64_t begin, uint64_t end)
     atomic_fetch_add(&scan->count, count);
 }
 
+static void scan_quads(void *user, uint64_t begin, uint64_t end)
+{
+    degenerate_scan *scan = user;
+    mt_index count = 0;
+    const mt_index *v = scan->mesh->corner_vertices + 4 * begin;
+    for (uint64_t face = begin; face < end; face++, v += 4) {
+        uint8_t repeats = (uint8_t)((v[0] == v[1]) | (v[1] == v[2]) | (v[2] == v[3]) | (v[3] == v[0]) | (v[0] == v[2]) |
+                                    (v[1] == v[3]));
+        scan->flags[face] = repeats;
+        count += repeats;
+    }
+    atomic_fetch_add(&scan->count, count);
+}
+
 static void scan_polygons(void *user, uint64_t begin, uint64_t end)
 {
     degenerate_scan *scan = user;
@@ -78,8 +92,9 @@ static void scan_large(degenerate_scan *scan, mt_index *last_face)
 mt_status mt_find_degenerate_faces(mt_context *context, const mt_mesh *mesh, uint8_t *flags, mt_index *count)
 {
     degenerate_scan scan = {.mesh = mesh, .flags = flags};
-    bool triangles = !mesh->face_offsets && mesh->face_size == 3;
-    mt_parallel_for(context, mesh->face_count, GRAIN, triangles ? scan_triangles : scan_polygons, &scan);
+    mt_index size = mesh->face_offsets ? 0 : mesh->face_size;
+    mt_parallel_body body = size == 3 ? scan_triangles : size == 4 ? scan_quads : scan_polygons;
+    mt_parallel_for(context, mesh->face_count, GRAIN, body, &scan);
     if (scan.has_large) {
         mt_index *last_face = mt_allocate_array(context, mesh->vertex_count, sizeof *last_face);
         if (!last_face) {

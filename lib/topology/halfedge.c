@@ -3,12 +3,14 @@
  *
  * Cost: O(vertices + corners) time; 12 bytes a half-edge, 4 a vertex and 4 a face kept, 16 a corner more meanwhile. */
 #include "lib/topology/halfedge_fill.h"
-#include "lib/topology/refusal.h"
 #include "lib/topology/source_mesh.h"
 
 #include <meshtool/degenerate_faces.h>
+#include <meshtool/refusal.h>
 
 #include <string.h>
+
+#define WHO_NEEDS "half-edges need"
 
 static mt_status allocate_structure(mt_context *context, const mt_mesh *mesh, uint64_t edge_room,
                                     mt_halfedge_mesh *structure)
@@ -71,7 +73,7 @@ static uint64_t count_ring_halfedges(const mt_halfedge_mesh *structure)
 static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs,
                                   mt_halfedge_mesh *structure)
 {
-    mt_status status = mt_refuse_sides(context, mesh, pairs);
+    mt_status status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
     if (status == MT_OK) {
         status = allocate_structure(context, mesh, pairs->edge_count, structure);
     }
@@ -81,7 +83,7 @@ static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_e
     structure->halfedge_count = 2 * pairs->edge_count;
     bool filled = mt_halfedge_fill(mesh, pairs, structure);
     if (!filled || count_ring_halfedges(structure) != structure->halfedge_count) {
-        return mt_refuse_vertex(context, mesh);
+        return mt_refuse_vertex(context, mesh, WHO_NEEDS);
     }
     return MT_OK;
 }

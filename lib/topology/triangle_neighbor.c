@@ -4,13 +4,15 @@
  * That no vertex has several fans shows in a count: one fan a vertex is walked, and all corners must be met.
  *
  * Cost: O(vertices + corners) time; 24 bytes a triangle and 4 a vertex kept, what pairing needs meanwhile. */
+#include <meshtool/refusal.h>
 #include <meshtool/triangle_neighbor.h>
 
-#include "lib/topology/refusal.h"
 #include "lib/topology/source_mesh.h"
 
 #include <stdatomic.h>
 #include <string.h>
+
+#define WHO_NEEDS "triangle neighbours need"
 
 #define GRAIN 16384
 #define WALKERS 8
@@ -100,13 +102,13 @@ static mt_status fill(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *p
     }
     fan_count count = {structure, 0};
     mt_parallel_for(context, structure->vertex_count, GRAIN, count_fans, &count);
-    return count.corners == mesh->corner_count ? MT_OK : mt_refuse_vertex(context, mesh);
+    return count.corners == mesh->corner_count ? MT_OK : mt_refuse_vertex(context, mesh, WHO_NEEDS);
 }
 
 static mt_status build(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs,
                        mt_triangle_neighbor_mesh *structure)
 {
-    mt_status status = mt_refuse_sides(context, mesh, pairs);
+    mt_status status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
     if (status != MT_OK) {
         return status;
     }

@@ -4,11 +4,14 @@
  * That no vertex has several fans shows in a count: one ring a vertex is walked, and every edge must be met twice.
  *
  * Cost: O(vertices + corners) time; 32 bytes an edge, 4 a vertex and 4 a face kept, 16 a corner more meanwhile. */
-#include "lib/topology/refusal.h"
 #include "lib/topology/source_mesh.h"
 #include "lib/topology/winged_fill.h"
 
+#include <meshtool/refusal.h>
+
 #include <stdatomic.h>
+
+#define WHO_NEEDS "winged edges need"
 
 #define GRAIN 16384
 #define WALKERS 8
@@ -68,7 +71,7 @@ static mt_status allocate_structure(mt_context *context, const mt_mesh *mesh, mt
 
 static mt_status build(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs, mt_winged_edge_mesh *structure)
 {
-    mt_status status = mt_refuse_sides(context, mesh, pairs);
+    mt_status status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
     if (status == MT_OK) {
         status = allocate_structure(context, mesh, pairs->edge_count, structure);
     }
@@ -78,7 +81,7 @@ static mt_status build(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *
     mt_winged_fill(mesh, pairs, structure);
     ring_count count = {structure, 0};
     mt_parallel_for(context, structure->vertex_count, GRAIN, count_rings, &count);
-    return count.edges == 2 * (uint64_t)structure->edge_count ? MT_OK : mt_refuse_vertex(context, mesh);
+    return count.edges == 2 * (uint64_t)structure->edge_count ? MT_OK : mt_refuse_vertex(context, mesh, WHO_NEEDS);
 }
 
 mt_status mt_winged_edge_create(mt_context *context, const mt_mesh *mesh, mt_winged_edge_mesh **out)

@@ -49,7 +49,9 @@ static void test_misoriented_edge(void **state)
     (void)state;
     static const mt_index turned[] = {3, 0, 1, 2, 4, 1, 2, 3, 4};
     expect_refusal(5, 2, turned, MT_ERROR_NOT_ORIENTED, "faces 0, 1 run along edge 1-2 in the same direction; ",
-                   "repair --orient");
+                   "`meshtool repair --orient` can turn faces");
+    static const mt_index strip[] = {4, 0, 1, 4, 3, 4, 1, 2, 5, 4, 4, 2, 3, 0, 5};
+    expect_refusal(6, 3, strip, MT_ERROR_NOT_ORIENTED, "faces ", "`meshtool repair --orient` cannot help");
 }
 
 static void test_degenerate_faces(void **state)
@@ -57,6 +59,13 @@ static void test_degenerate_faces(void **state)
     (void)state;
     static const mt_index quad[] = {3, 0, 1, 2, 4, 3, 4, 3, 5};
     expect_refusal(6, 2, quad, MT_ERROR_NOT_MANIFOLD, "face 1 names vertex 3 more than once; ", "--drop-degenerate");
+    static const mt_index slots[][4] = {{4, 4, 5, 6}, {5, 4, 4, 6}, {5, 6, 4, 4},
+                                        {4, 5, 6, 4}, {4, 5, 4, 6}, {5, 4, 6, 4}};
+    for (unsigned i = 0; i < 6; i++) {
+        mt_index quads[] = {4, 0, 1, 2, 3, 4, slots[i][0], slots[i][1], slots[i][2], slots[i][3]};
+        expect_refusal(7, 2, quads, MT_ERROR_NOT_MANIFOLD, "face 1 names vertex 4 more than once; ",
+                       "--drop-degenerate");
+    }
     static const mt_index side[] = {3, 0, 0, 1};
     expect_refusal(2, 1, side, MT_ERROR_NOT_MANIFOLD, "face 0 names vertex 0 more than once; ", "--drop-degenerate");
     static const mt_index large[] = {3, 0, 1, 2, 10, 3, 4, 5, 6, 7, 8, 9, 10, 11, 5, 4, 0, 12, 0, 13};
@@ -67,13 +76,13 @@ static void test_pinched_vertices(void **state)
 {
     (void)state;
     static const mt_index bow_tie[] = {3, 3, 0, 1, 3, 0, 2, 4};
-    expect_refusal(5, 2, bow_tie, MT_ERROR_NOT_MANIFOLD, "vertex 0 joins several separate fans of faces", "--split");
+    expect_refusal(5, 2, bow_tie, MT_ERROR_NOT_MANIFOLD, "several fans of faces meet in vertex 0 alone", "--split");
     /* Two closed tetrahedra that share vertex 3. */
     static const mt_index cones[] = {3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 2, 0, 3,
                                      3, 4, 6, 5, 3, 4, 5, 3, 3, 5, 6, 3, 3, 6, 4, 3};
-    expect_refusal(7, 8, cones, MT_ERROR_NOT_MANIFOLD, "vertex 3 joins several separate fans of faces", "--split");
+    expect_refusal(7, 8, cones, MT_ERROR_NOT_MANIFOLD, "several fans of faces meet in vertex 3 alone", "--split");
     static const mt_index quads[] = {4, 3, 0, 1, 5, 4, 0, 2, 4, 6};
-    expect_refusal(7, 2, quads, MT_ERROR_NOT_MANIFOLD, "vertex 0 joins several separate fans of faces", "--split");
+    expect_refusal(7, 2, quads, MT_ERROR_NOT_MANIFOLD, "several fans of faces meet in vertex 0 alone", "--split");
 }
 
 /* Whatever a soup holds: either it is refused, or it is refined to a mesh with the same Euler characteristic. */

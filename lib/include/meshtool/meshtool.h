@@ -24,6 +24,7 @@
 #include <meshtool/degenerate_faces.h>   /* faces that name a vertex twice */
 #include <meshtool/edge_pairs.h>         /* which sides share an edge */
 #include <meshtool/halfedge.h>           /* half-edges in pairs */
+#include <meshtool/refusal.h>            /* why a mesh is not what these need, and what can mend it */
 #include <meshtool/split_non_manifold.h> /* repeated vertices where no structure can hold one */
 #include <meshtool/triangle_neighbor.h>  /* triangles and what lies across their sides */
 #include <meshtool/vertex_fans.h>        /* how the faces around a vertex hang together */
