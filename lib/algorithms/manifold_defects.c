@@ -26,7 +26,7 @@ const char *mt_defect_words(mt_defect_kind kind)
 /* Lists being written: indices in one block that grows, in which the defects' pointers are set at the end. */
 typedef struct defect_list {
     manifold_check *check;
-    uint64_t limit; /* of the kind being listed */
+    uint64_t limit; /* how many of the kind are still to be listed */
     mt_defect *defects;
     uint64_t count, room;
     mt_index *indices;
@@ -157,7 +157,7 @@ static void list_edges(defect_list *list, mt_defect_kind kind, mt_edge_class edg
     for (mt_index face = 0; face < mesh->face_count && list->limit && !list->failed; face++) {
         mt_index begin = mt_mesh_face_begin(mesh, face), end = mt_mesh_face_end(mesh, face);
         for (mt_index c = begin; c < end && list->limit; c++) {
-            if (mt_edge_class_of(mesh, pairs, c) == edge_class && mt_edge_is_first(pairs, c)) {
+            if (mt_edge_is_first(pairs, c) && mt_edge_class_of(mesh, pairs, c) == edge_class) {
                 mt_index next = c + 1 < end ? c + 1 : begin;
                 list_edge(list, kind, c, mesh->corner_vertices[c], mesh->corner_vertices[next]);
                 list->limit--;
@@ -328,8 +328,9 @@ mt_status mt_manifold_list_defects(manifold_check *check, uint64_t defects_per_k
 {
     defect_list list = {.check = check};
     for (mt_defect_kind kind = 0; kind < MT_DEFECT_KIND_COUNT && !list.failed; kind++) {
-        list.limit = defects_per_kind;
-        if (check->report->defect_counts[kind]) {
+        mt_index count = check->report->defect_counts[kind];
+        list.limit = count < defects_per_kind ? count : defects_per_kind;
+        if (count) {
             list_kind(&list, kind);
         }
     }

@@ -9,6 +9,24 @@
 
 #include <string.h>
 
+/* Whether three corners that follow each other around a face, in either direction, could be these. */
+static bool in_one_face(const mt_mesh *mesh, const mt_index *corners)
+{
+    if (!mesh->face_offsets) {
+        mt_index size = mesh->face_size;
+        mt_index face = size == 3 ? corners[0] / 3 : corners[0] / size;
+        return face == (size == 3 ? corners[1] / 3 : corners[1] / size);
+    }
+    /* At most one of the two steps wraps around; the other leads to a neighbour. */
+    mt_index first = corners[1] - corners[0], second = corners[2] - corners[1];
+    if (first + 1 > 2 && second + 1 > 2) {
+        return false;
+    }
+    mt_index face = mt_mesh_corner_face(mesh, corners[0]);
+    mt_index begin = mt_mesh_face_begin(mesh, face), end = mt_mesh_face_end(mesh, face);
+    return corners[1] >= begin && corners[1] < end && corners[2] >= begin && corners[2] < end;
+}
+
 /* Whether some other face may have all the face's sides. Never false for a face that has a duplicate. */
 static bool may_repeat(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_index face)
 {
@@ -18,14 +36,11 @@ static bool may_repeat(const mt_mesh *mesh, const mt_edge_pairs *pairs, mt_index
         if (other[i] == begin + i) {
             return false;
         }
-        if (other[i] == MT_NONE || pairs->next_side[other[i]] != begin + i) {
+        if (other[i] == MT_NONE || (pairs->non_manifold_count && pairs->next_side[other[i]] != begin + i)) {
             return true;
         }
     }
-    /* All three edges have two sides, so the other face has the three in a row, in either direction, and at most one
-     * step of that row wraps around. */
-    mt_index first = other[1] - other[0], second = other[2] - other[1];
-    return first + 1 <= 2 || second + 1 <= 2;
+    return in_one_face(mesh, other);
 }
 
 static void mark_candidates(void *user, uint64_t begin, uint64_t end)

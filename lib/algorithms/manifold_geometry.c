@@ -119,12 +119,29 @@ static inline void measure_triangle(const measurement *job, mt_index triangle, c
     }
 }
 
+/* Triangles that memory is given to fetch positions, which are far apart when the faces are in a random order. */
+#define LOOK_AHEAD 16
+
+static inline void look_ahead(const measurement *job, mt_index triangle)
+{
+    if (job->triangulation->triangle_count - triangle <= LOOK_AHEAD) {
+        return;
+    }
+    const mt_mesh *mesh = job->check->mesh;
+    size_t size = 3 * mt_type_size(mesh->position_type);
+    for (mt_index side = 0; side < 3; side++) {
+        mt_index corner = mt_triangulation_corner(job->triangulation, triangle + LOOK_AHEAD, side);
+        __builtin_prefetch((const char *)mesh->positions + mesh->corner_vertices[corner] * size);
+    }
+}
+
 static void measure_block(void *user, uint64_t begin, uint64_t end)
 {
     const measurement *job = user;
     const mt_mesh *mesh = job->check->mesh;
     block_sums sums = {0};
     for (mt_index t = (mt_index)begin; t < end; t++) {
+        look_ahead(job, t);
         mt_index vertex[3];
         for (mt_index side = 0; side < 3; side++) {
             vertex[side] = mesh->corner_vertices[mt_triangulation_corner(job->triangulation, t, side)];

@@ -97,30 +97,57 @@ static void begin_at_boundary(const fan_walk *walk)
     }
 }
 
-/* Whether the walk from the first corner comes to an end or back before it has met all. The number of steps is known
- * beforehand, so that walks around different vertices overlap in the processor. */
-static inline bool walk_is_short(const fan_walk *walk, vertex_corners corners)
+/* Walks that go on at once, since each step must wait for memory. */
+#define WALKERS 16
+
+typedef struct walker {
+    mt_index corner, first;
+    mt_index left; /* corners not met yet, if there is one fan */
+    mt_index vertex;
+    bool is_short; /* came to an end, or back, before it had met all */
+} walker;
+
+static inline bool start_walk(const fan_walk *walk, walker *own, mt_index vertex)
 {
-    const mt_index *next_side = walk->pairs->next_side;
-    mt_index corner = corners.first;
-    bool is_short = false;
-    for (mt_index step = 1; step < corners.count; step++) {
-        mt_index across = next_side[corner];
-        is_short |= across == corner;
-        corner = next_in_face(walk, across);
-        is_short |= corner == corners.first;
+    vertex_corners corners = walk->corners[vertex];
+    uint8_t fans = walk->fans[vertex];
+    if (corners.count == 0 || (fans != MT_FANS_NONE && fans != FANS_OPEN)) {
+        return false;
     }
-    return is_short;
+    own->corner = own->first = corners.first;
+    own->left = corners.count - 1;
+    own->vertex = vertex;
+    own->is_short = false;
+    return true;
+}
+
+static inline void step(const fan_walk *walk, walker *own)
+{
+    mt_index across = walk->pairs->next_side[own->corner];
+    own->is_short |= across == own->corner;
+    own->corner = next_in_face(walk, across);
+    own->is_short |= own->corner == own->first;
+    own->left--;
 }
 
 static void walk_vertices(void *user, uint64_t begin, uint64_t end)
 {
     const fan_walk *walk = user;
-    for (uint64_t vertex = begin; vertex < end; vertex++) {
-        vertex_corners corners = walk->corners[vertex];
-        uint8_t fans = walk->fans[vertex];
-        if (corners.count && (fans == MT_FANS_NONE || fans == FANS_OPEN)) {
-            walk->fans[vertex] = walk_is_short(walk, corners) ? MT_FANS_SEVERAL : MT_FANS_ONE;
+    walker walkers[WALKERS];
+    unsigned active = 0;
+    mt_index vertex = (mt_index)begin;
+    while (active || vertex < end) {
+        while (active < WALKERS && vertex < end) {
+            active += start_walk(walk, &walkers[active], vertex++);
+        }
+        for (unsigned i = 0; i < active;) {
+            if (walkers[i].left) {
+                step(walk, &walkers[i]);
+                i++;
+            } else {
+                walk->fans[walkers[i].vertex] = walkers[i].is_short ? MT_FANS_SEVERAL : MT_FANS_ONE;
+                walkers[i] = walkers[--active];
+            }
         }
     }
 }
