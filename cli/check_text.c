@@ -37,8 +37,11 @@ static void print_example(const cli_check *check, const mt_defect *defect)
     cli_line line = {0};
     cli_quantity place = place_of(check->mesh, defect);
     if (cli_defect_is_of_edges(defect->kind)) {
-        cli_line_add(&line, "edge %u-%u at %s, in ", defect->vertices[0], defect->vertices[1], place.text);
+        mt_index a = defect->vertices[0], b = defect->vertices[1];
+        cli_line_add(&line, "edge %u-%u at %s, in ", a < b ? a : b, a < b ? b : a, place.text);
         add_list(&line, "face", defect->faces, defect->face_count);
+    } else if (defect->kind == MT_DEFECT_DUPLICATE_FACE && defect->face_count == 2) {
+        cli_line_add(&line, "face %u repeats face %u, at %s", defect->faces[1], defect->faces[0], place.text);
     } else if (cli_defect_is_of_faces(defect->kind)) {
         add_list(&line, "face", defect->faces, defect->face_count);
         cli_line_add(&line, " at %s, with ", place.text);

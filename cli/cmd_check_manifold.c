@@ -1,6 +1,7 @@
 /* meshtool check-manifold: reads, checks, and reports in the form asked for. */
 #include "check.h"
 #include "message.h"
+#include "progress.h"
 
 #define LISTED_PER_KIND 100 /* by the contract, without --all-defects */
 
@@ -48,6 +49,7 @@ static check_form form_of(const cli_job *job)
 
 static void print_report(const cli_job *job, const cli_check *check)
 {
+    cli_progress_clear();
     switch (form_of(job)) {
     case CHECK_FORM_JSON:
         cli_check_print_json(check);

@@ -123,14 +123,15 @@ static void print_mesh_format(const mt_mesh_format *format)
         }
     }
     print_extensions(format->extensions);
-    printf("%s\n    %s%s; as %s%s%s\n    holds ", format->title, format->read ? "read" : "",
-           !format->write ? ""
-           : format->read ? " and written"
-                          : "written",
-           format->has_ascii ? "text" : "", format->has_ascii && format->has_binary ? " or " : "",
-           !format->has_binary      ? ""
-           : format->has_binary_big ? "binary of either byte order"
-                                    : "binary");
+    printf("%s\n    %s", format->title, format->read ? "read" : "not read");
+    if (format->write) {
+        printf("; written as %s%s%s", format->has_ascii ? "text" : "",
+               format->has_ascii && format->has_binary ? " or " : "",
+               !format->has_binary      ? ""
+               : format->has_binary_big ? "binary of either byte order"
+                                        : "binary");
+    }
+    printf("\n    holds ");
     cli_print_wrapped(stdout, holds.text, 10, 10);
 }
 

@@ -1,6 +1,7 @@
 /* meshtool info: counts, bounds, what a mesh carries, and what it takes in memory, by formula. */
 #include "files.h"
 #include "line.h"
+#include "progress.h"
 #include "quantity.h"
 
 #include <inttypes.h>
@@ -264,6 +265,7 @@ static cli_exit show(const cli_job *job, const char *file)
     if (job->common->json) {
         print_json(file, format, mesh);
     } else {
+        cli_progress_clear();
         fputs(file == job->operands[0] ? "" : "\n", stdout);
         print_text(file, format, mesh);
     }

@@ -1,6 +1,7 @@
 /* meshtool subdivide: Catmull-Clark refinement. */
 #include "files.h"
 #include "message.h"
+#include "progress.h"
 #include "quantity.h"
 
 #include <meshtool/subdivide.h>
@@ -103,6 +104,7 @@ static cli_exit dry_run(const cli_job *job, const mt_mesh *mesh)
     if (mt_edge_pairs_create(job->context, mesh, &pairs) != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }
+    cli_progress_clear();
     code = print_levels(job, mesh, pairs);
     mt_edge_pairs_destroy(job->context, pairs);
     return code;

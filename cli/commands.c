@@ -4,6 +4,7 @@
 #include "nearest.h"
 
 #include <string.h>
+#include <unistd.h>
 
 const cli_command *const cli_commands[] = {
     &cli_check_manifold_command, &cli_info_command,    &cli_preview_command,
@@ -33,6 +34,8 @@ cli_exit cli_unknown_command(const char *name)
     fprintf(stderr, "meshtool: unknown command \"%s\"", name);
     if (nearest) {
         fprintf(stderr, "; did you mean %s?", nearest);
+    } else if (access(name, F_OK) == 0) {
+        fprintf(stderr, "; it is a file, and the command comes first: meshtool info %s", name);
     }
     fputs("\nThe commands are", stderr);
     for (size_t i = 0; i < count; i++) {

@@ -3,6 +3,7 @@
 #include "json.h"
 
 #include "memory.h"
+#include "progress.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -137,6 +138,7 @@ void cli_json_print(FILE *out, const json_t *value)
 
 void cli_json_print_line(const json_t *value)
 {
+    cli_progress_clear();
     cli_json_print(stdout, value);
     fputc('\n', stdout);
 }

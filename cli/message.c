@@ -36,11 +36,14 @@ cli_exit cli_report_failure(const cli_job *job, const char *file)
     }
     if (error->status == MT_ERROR_CANCELLED) {
         fputs("meshtool: interrupted; nothing was written\n", stderr);
-    } else if (file && !error->place.file && !strstr(error->message, file)) {
-        fprintf(stderr, "meshtool: %s: %s\n", file, error->message);
-    } else {
-        fprintf(stderr, "meshtool: %s\n", error->message);
+        return CLI_EXIT_INTERRUPT;
     }
+    bool names_file = !file || error->place.file || strstr(error->message, file);
+    fprintf(stderr, "meshtool: %s%s%s", names_file ? "" : file, names_file ? "" : ": ", error->message);
+    if (error->status == MT_ERROR_OUT_OF_MEMORY && job->common->max_memory && !strstr(error->message, "limit")) {
+        fprintf(stderr, " (--max-memory is %s)", cli_bytes(job->common->max_memory).text);
+    }
+    fputc('\n', stderr);
     return cli_exit_of(error->status);
 }
 
