@@ -147,8 +147,9 @@ size_t test_zoo(mt_context *context, test_animal *animals)
         animals[count++] = (test_animal){
             primitives[i].name, generate(context, primitives[i].name, primitives[i].resolution, primitives[i].type)};
     }
-    animals[count++] = (test_animal){"empty", test_mesh(context, 0, NULL, 0, NULL)};
-    animals[count++] = (test_animal){"one vertex", test_mesh(context, 1, (const double[]){1, 2, 3}, 0, NULL)};
+    animals[count++] = (test_animal){"empty", test_mesh(context, 0, (const double[]){0}, 0, (const mt_index[]){0})};
+    animals[count++] =
+        (test_animal){"one vertex", test_mesh(context, 1, (const double[]){1, 2, 3}, 0, (const mt_index[]){0})};
     animals[count++] = (test_animal){"extreme numbers", extreme_numbers(context)};
     animals[count] = (test_animal){"vertex attributes", generate(context, "tetrahedron", 0, MT_F64)};
     add_vertex_attributes(context, animals[count++].mesh, MT_F64, MT_U8);
