@@ -71,6 +71,13 @@ static int sniff_obj(const uint8_t *bytes, size_t size, uint64_t total)
     return strange == 0 ? 80 : strong > strange ? 60 : 20;
 }
 
+static bool holds_attribute(const mt_mesh *mesh, const mt_attribute *attribute, mt_encoding encoding)
+{
+    (void)encoding;
+    return attribute->semantic != MT_SEMANTIC_GENERIC &&
+           attribute == mt_obj_written_attribute(mesh, attribute->semantic);
+}
+
 const mt_mesh_format mt_obj_format = {
     .name = "obj",
     .title = "Wavefront OBJ",
@@ -79,6 +86,7 @@ const mt_mesh_format mt_obj_format = {
                  MT_HOLDS_CORNER_NORMALS | MT_HOLDS_VERTEX_UVS | MT_HOLDS_CORNER_UVS | MT_HOLDS_UV_DEPTH |
                  MT_HOLDS_VERTEX_COLORS | MT_HOLDS_GROUPS | MT_HOLDS_LIBRARIES | MT_HOLDS_CREASES | MT_HOLDS_F64,
     .has_ascii = true,
+    .holds_attribute = holds_attribute,
     .sniff = sniff_obj,
     .read = mt_obj_read,
     .write = mt_obj_write,

@@ -8,4 +8,7 @@ mt_status mt_obj_read(mt_context *context, mt_input *input, const mt_mesh_read_o
 mt_status mt_obj_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options,
                        mt_output *output);
 
+/* The attribute of a meaning that is written; one of each is. */
+const mt_attribute *mt_obj_written_attribute(const mt_mesh *mesh, mt_semantic semantic);
+
 #endif

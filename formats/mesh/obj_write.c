@@ -226,8 +226,11 @@ static void put_libraries(void *user, mt_lines *lines, uint64_t begin, uint64_t 
     }
 }
 
-static const mt_attribute *find_on_corners_or_vertices(const mt_mesh *mesh, mt_semantic semantic)
+const mt_attribute *mt_obj_written_attribute(const mt_mesh *mesh, mt_semantic semantic)
 {
+    if (semantic == MT_SEMANTIC_COLOR) {
+        return mt_mesh_find_attribute(mesh, semantic, MT_DOMAIN_VERTEX);
+    }
     const mt_attribute *attribute = mt_mesh_find_attribute(mesh, semantic, MT_DOMAIN_CORNER);
     return attribute ? attribute : mt_mesh_find_attribute(mesh, semantic, MT_DOMAIN_VERTEX);
 }
@@ -236,9 +239,9 @@ mt_status mt_obj_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_w
                        mt_output *output)
 {
     obj_writer writer = {.mesh = mesh,
-                         .color = mt_mesh_find_attribute(mesh, MT_SEMANTIC_COLOR, MT_DOMAIN_VERTEX),
-                         .uv = find_on_corners_or_vertices(mesh, MT_SEMANTIC_UV),
-                         .normal = find_on_corners_or_vertices(mesh, MT_SEMANTIC_NORMAL)};
+                         .color = mt_obj_written_attribute(mesh, MT_SEMANTIC_COLOR),
+                         .uv = mt_obj_written_attribute(mesh, MT_SEMANTIC_UV),
+                         .normal = mt_obj_written_attribute(mesh, MT_SEMANTIC_NORMAL)};
     for (int kind = 0; kind < LABEL_KINDS; kind++) {
         writer.labels[kind] = mt_mesh_find_labels(mesh, (mt_label_kind)kind);
     }

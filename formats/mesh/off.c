@@ -122,6 +122,16 @@ mt_status mt_off_add_attributes(mt_context *context, mt_mesh *mesh, const mt_off
     return status == MT_OK && header->uvs ? mt_mesh_add_attribute(context, mesh, &uvs, &attribute) : status;
 }
 
+/* One of each meaning: on vertices, and colours on faces too. */
+static bool holds_attribute(const mt_mesh *mesh, const mt_attribute *attribute, mt_encoding encoding)
+{
+    (void)encoding;
+    bool held = attribute->domain == MT_DOMAIN_VERTEX ||
+                (attribute->domain == MT_DOMAIN_FACE && attribute->semantic == MT_SEMANTIC_COLOR);
+    return held && attribute->semantic != MT_SEMANTIC_GENERIC &&
+           attribute == mt_mesh_find_attribute(mesh, attribute->semantic, attribute->domain);
+}
+
 const mt_mesh_format mt_off_format = {
     .name = "off",
     .title = "OFF",
@@ -129,6 +139,7 @@ const mt_mesh_format mt_off_format = {
     .abilities = MT_HOLDS_POLYGONS | MT_HOLDS_INDICES | MT_HOLDS_VERTEX_NORMALS | MT_HOLDS_VERTEX_UVS |
                  MT_HOLDS_VERTEX_COLORS | MT_HOLDS_FACE_COLORS | MT_HOLDS_ALPHA | MT_HOLDS_F64,
     .has_ascii = true,
+    .holds_attribute = holds_attribute,
     .sniff = sniff_off,
     .read = read_off,
     .write = mt_off_write,

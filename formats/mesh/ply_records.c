@@ -82,6 +82,9 @@ static mt_status fail_memory(const record_reader *r)
 
 static mt_status add_vertices(record_reader *r, const ply_property *property, const uint8_t *bytes, uint64_t count)
 {
+    if (count == 0) {
+        return MT_OK;
+    }
     ply_faces *faces = &r->faces;
     mt_index limit = mt_ply_index_limit(r->plan, property->type);
     size_t size = mt_type_size(property->type);
