@@ -87,7 +87,7 @@ static void explain_failure(poptContext parser, int code, const cli_option *cons
     if (code == POPT_ERROR_NOARG) {
         snprintf(problem, problem_size, "%s needs a value", wrong);
     } else if (code == POPT_ERROR_UNWANTEDARG) {
-        snprintf(problem, problem_size, "%s takes no value", wrong);
+        snprintf(problem, problem_size, "%.*s takes no value", (int)strcspn(wrong, "="), wrong);
     } else if (code != POPT_ERROR_BADOPT) {
         snprintf(problem, problem_size, "%s: %s", wrong, poptStrerror(code));
     } else {

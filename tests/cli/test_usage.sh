@@ -25,7 +25,7 @@ says 'unknown option "-z"'
 run 2 subdivide "$folder/cube.off" -n
 says "needs a value"
 run 2 info "$folder/cube.off" --json=yes
-says "takes no value"
+says "info: --json takes no value"
 for value in -1 32 2.5 "" x 1e3 99999999999999999999; do
   run 2 subdivide "$folder/cube.off" -o "$folder/x.off" -n "$value"
   says "expects a whole number from 0 to 31"
