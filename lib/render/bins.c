@@ -32,22 +32,6 @@ static bool is_large(mt_tile_range range)
     return (range.last_x - range.first_x + 1) * (range.last_y - range.first_y + 1) > LARGE_TILE_COUNT;
 }
 
-mt_tile_range mt_tile_range_of(int64_t first_x, int64_t first_y, int64_t last_x, int64_t last_y, uint32_t width,
-                               uint32_t height)
-{
-    const mt_tile_range empty = {1, 1, 0, 0};
-    if (last_x < 0 || last_y < 0 || first_x >= width || first_y >= height || first_x > last_x || first_y > last_y) {
-        return empty;
-    }
-    first_x = first_x > 0 ? first_x : 0;
-    first_y = first_y > 0 ? first_y : 0;
-    last_x = last_x < width ? last_x : (int64_t)width - 1;
-    last_y = last_y < height ? last_y : (int64_t)height - 1;
-    mt_tile_range range = {(uint16_t)(first_x / MT_TILE_SIZE), (uint16_t)(first_y / MT_TILE_SIZE),
-                           (uint16_t)(last_x / MT_TILE_SIZE), (uint16_t)(last_y / MT_TILE_SIZE)};
-    return range;
-}
-
 /* Calls for a primitive of several tiles: adds it to each that it touches, or only counts. */
 static void visit_tiles(const bin_task *task, mt_index number, mt_tile_range range, size_t *places, bool fill)
 {

@@ -34,7 +34,21 @@ mt_status mt_bins_init(mt_context *context, const mt_binned *binned, uint32_t wi
 void mt_bins_release(mt_context *context, mt_bins *bins);
 
 /* The tiles of a rectangle of pixels, clipped to the picture. */
-mt_tile_range mt_tile_range_of(int64_t first_x, int64_t first_y, int64_t last_x, int64_t last_y, uint32_t width,
-                               uint32_t height);
+static inline mt_tile_range mt_tile_range_of(int32_t first_x, int32_t first_y, int32_t last_x, int32_t last_y,
+                                             uint32_t width, uint32_t height)
+{
+    const mt_tile_range empty = {1, 1, 0, 0};
+    int32_t right = (int32_t)width - 1, bottom = (int32_t)height - 1;
+    first_x = first_x > 0 ? first_x : 0;
+    first_y = first_y > 0 ? first_y : 0;
+    last_x = last_x < right ? last_x : right;
+    last_y = last_y < bottom ? last_y : bottom;
+    if (first_x > last_x || first_y > last_y) {
+        return empty;
+    }
+    mt_tile_range range = {(uint16_t)((uint32_t)first_x / MT_TILE_SIZE), (uint16_t)((uint32_t)first_y / MT_TILE_SIZE),
+                           (uint16_t)((uint32_t)last_x / MT_TILE_SIZE), (uint16_t)((uint32_t)last_y / MT_TILE_SIZE)};
+    return range;
+}
 
 #endif

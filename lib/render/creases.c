@@ -2,6 +2,8 @@
  * are then sorted by vertex with their order kept, so that each list ascends. */
 #include "lib/render/corner_normals.h"
 
+#include <string.h>
+
 #define FACE_BLOCK 32768
 
 typedef struct pair {
@@ -21,7 +23,7 @@ typedef struct collect_task {
     found *blocks;
 } collect_task;
 
-/* Goes over the corners of some faces at creased vertices; stores them when `pairs` is not NULL. */
+/* Stores the corners of some faces at creased vertices; returns how many there are. */
 static uint64_t visit(const mt_corner_normals *normals, uint64_t begin, uint64_t end, pair *pairs)
 {
     const mt_mesh *mesh = normals->model->mesh;
@@ -31,30 +33,32 @@ static uint64_t visit(const mt_corner_normals *normals, uint64_t begin, uint64_t
         mt_index face = (mt_index)f, last = mt_mesh_face_end(mesh, face);
         for (mt_index corner = mt_mesh_face_begin(mesh, face); corner < last; corner++) {
             mt_index vertex = mt_joined_vertex(normals, mesh->corner_vertices[corner]);
-            if (!(flags[vertex] & MT_VERTEX_CREASED)) {
-                continue;
+            if (flags[vertex] & MT_VERTEX_CREASED) {
+                pairs[count++] = (pair){vertex, face};
             }
-            if (pairs) {
-                pairs[count] = (pair){vertex, face};
-            }
-            count++;
         }
     }
     return count;
 }
 
+/* Room for every corner of the block is taken for a moment: going over the faces once more would cost more. */
 static void collect(void *user, uint64_t begin, uint64_t end)
 {
     const collect_task *task = (const collect_task *)user;
+    const mt_mesh *mesh = task->normals->model->mesh;
     found *block = &task->blocks[begin / FACE_BLOCK];
-    block->count = visit(task->normals, begin, end, NULL);
+    uint64_t corner_count = mt_mesh_face_end(mesh, (mt_index)(end - 1)) - mt_mesh_face_begin(mesh, (mt_index)begin);
+    pair *pairs = (pair *)mt_try_allocate(task->context, corner_count * sizeof(pair));
+    block->failed = !pairs;
+    block->count = pairs ? visit(task->normals, begin, end, pairs) : 0;
     if (block->count > 0) {
         block->pairs = (pair *)mt_try_allocate(task->context, block->count * sizeof(pair));
         block->failed = !block->pairs;
     }
     if (block->pairs) {
-        visit(task->normals, begin, end, block->pairs);
+        memcpy(block->pairs, pairs, (size_t)block->count * sizeof(pair));
     }
+    mt_free(task->context, pairs);
 }
 
 /* Calls for every pair in the order of the faces, in three rounds. */

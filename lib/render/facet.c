@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-/* A facet is lit as a whole where interpolation would not show: its sides are shorter than a pixel, or than a few
- * pixels with one colour and normals that differ by 2 degrees at most. */
-#define TINY_SIZE (1.0 * MT_STEPS)
+/* A facet is lit as a whole where interpolation would not show: its sides are shorter than a pixel or so, or than a few
+ * pixels with one colour and normals that lie within 3 degrees of their mean. */
+#define TINY_SIZE (1.5 * MT_STEPS)
 #define SMALL_SIZE (3.0 * MT_STEPS)
-#define SMALL_COSINE 0.9994
+#define SMALL_COSINE 0.9986
 
 void mt_look_init(mt_look *look, const mt_frame *frame, const mt_corner_normals *normals,
                   const unsigned char *face_colors, mt_vec3 up)
@@ -44,8 +44,6 @@ static bool same(mt_vec3 a, mt_vec3 b)
 typedef struct source {
     mt_index face, corners[3], vertices[3];
     const mt_screen_vertex *screen[3];
-    bool front;
-    double size; /* steps */
 } source;
 
 static source load(const mt_look *look, mt_index triangle)
@@ -60,13 +58,27 @@ static source load(const mt_look *look, mt_index triangle)
     return from;
 }
 
-static void prepare_geometry(source *from, mt_facet *facet)
+static double size_of(const source *from)
+{
+    const mt_screen_vertex *p = from->screen[0], *q = from->screen[1], *r = from->screen[2];
+    double x = fabs(q->x - p->x), y = fabs(q->y - p->y), x2 = fabs(r->x - p->x), y2 = fabs(r->y - p->y);
+    x = x > x2 ? x : x2;
+    y = y > y2 ? y : y2;
+    return x > y ? x : y;
+}
+
+/* y runs down the picture, so what turns with the clock there is seen from the back. */
+static bool is_front(const source *from)
+{
+    const mt_screen_vertex *p = from->screen[0], *q = from->screen[1], *r = from->screen[2];
+    return (q->x - p->x) * (r->y - p->y) - (r->x - p->x) * (q->y - p->y) < 0;
+}
+
+static void prepare_geometry(const source *from, mt_facet *facet)
 {
     const mt_screen_vertex *p = from->screen[0], *q = from->screen[1], *r = from->screen[2];
     double x1 = q->x - p->x, y1 = q->y - p->y, x2 = r->x - p->x, y2 = r->y - p->y;
-    double area = x1 * y2 - x2 * y1, scale = 1.0 / area;
-    from->front = area < 0; /* y runs down the picture */
-    from->size = fmax(fmax(fabs(x1), fabs(y1)), fmax(fabs(x2), fabs(y2)));
+    double scale = 1.0 / (x1 * y2 - x2 * y1);
     facet->x = p->x;
     facet->y = p->y;
     facet->slopes[0][0] = y2 * scale, facet->slopes[0][1] = -x2 * scale;
@@ -76,17 +88,17 @@ static void prepare_geometry(source *from, mt_facet *facet)
 
 static void prepare_colors(const mt_look *look, const source *from, mt_facet *facet)
 {
+    bool front = is_front(from);
     facet->one_color = true;
-    for (int i = 0; i < 3; i++) {
+    facet->colors[0] = facet->colors[1] = facet->colors[2] = front ? look->front_color : look->back_color;
+    for (int i = 0; look->has_colors && i < 3; i++) {
         mt_vec3 color, tint = look->back_tint;
-        if (!look->has_colors) {
-            facet->colors[i] = from->front ? look->front_color : look->back_color;
-        } else if (mt_surface_color(&look->surface, from->face, from->corners[i], from->vertices[i], &color)) {
-            facet->colors[i] = from->front ? color : mt_vec3_make(color.x * tint.x, color.y * tint.y, color.z * tint.z);
-        } else {
-            facet->colors[i] = from->front ? look->front_color : look->back_color;
+        if (mt_surface_color(&look->surface, from->face, from->corners[i], from->vertices[i], &color)) {
+            facet->colors[i] = front ? color : mt_vec3_make(color.x * tint.x, color.y * tint.y, color.z * tint.z);
         }
-        facet->one_color = facet->one_color && same(facet->colors[0], facet->colors[i]);
+    }
+    if (look->has_colors) {
+        facet->one_color = same(facet->colors[0], facet->colors[1]) && same(facet->colors[0], facet->colors[2]);
     }
 }
 
@@ -107,22 +119,34 @@ static mt_vec3 unit_or(mt_vec3 a, mt_vec3 otherwise)
     return length > 0 ? mt_vec3_scale(a, 1.0 / length) : otherwise;
 }
 
+/* Lights the facet as a whole where that does not show. */
+static bool light_small(const mt_look *look, double size, mt_vec3 eye, mt_facet *facet)
+{
+    const mt_vec3 *n = facet->normals, *c = facet->colors;
+    if (size >= SMALL_SIZE || (size >= TINY_SIZE && !facet->one_color)) {
+        return false;
+    }
+    mt_vec3 normal = unit_or(mt_vec3_add(mt_vec3_add(n[0], n[1]), n[2]), eye);
+    bool flat = mt_vec3_dot(normal, n[0]) >= SMALL_COSINE && mt_vec3_dot(normal, n[1]) >= SMALL_COSINE &&
+                mt_vec3_dot(normal, n[2]) >= SMALL_COSINE;
+    if (size >= TINY_SIZE && !flat) {
+        return false;
+    }
+    mt_vec3 mean = facet->one_color ? c[0] : mt_vec3_scale(mt_vec3_add(mt_vec3_add(c[0], c[1]), c[2]), 1.0 / 3.0);
+    facet->light = mt_shade(&look->lighting, normal, eye, mean);
+    return true;
+}
+
 void mt_facet_prepare(const mt_look *look, mt_index triangle, mt_facet *facet)
 {
     source from = load(look, triangle);
     facet->triangle = triangle;
-    prepare_geometry(&from, facet);
-    mt_vec3 eye = toward_eye(look, facet->x, facet->y);
+    mt_vec3 eye = toward_eye(look, from.screen[0]->x, from.screen[0]->y);
     prepare_colors(look, &from, facet);
     prepare_normals(look, &from, eye, facet);
-    const mt_vec3 *n = facet->normals, *c = facet->colors;
-    facet->is_small = false;
-    if (from.size < SMALL_SIZE) {
-        mt_vec3 normal = unit_or(mt_vec3_add(mt_vec3_add(n[0], n[1]), n[2]), eye);
-        double cosine = fmin(fmin(mt_vec3_dot(normal, n[0]), mt_vec3_dot(normal, n[1])), mt_vec3_dot(normal, n[2]));
-        facet->is_small = from.size < TINY_SIZE || (facet->one_color && cosine >= SMALL_COSINE);
-        mt_vec3 color = mt_vec3_scale(mt_vec3_add(mt_vec3_add(c[0], c[1]), c[2]), 1.0 / 3.0);
-        facet->light = mt_shade(&look->lighting, normal, eye, facet->one_color ? c[0] : color);
+    facet->is_small = light_small(look, size_of(&from), eye, facet);
+    if (!facet->is_small) {
+        prepare_geometry(&from, facet);
     }
 }
 

@@ -168,7 +168,7 @@ static void set_strokes(job *j)
     strokes.nearness = 1.0005;
     mt_stroke_set marks = {.frame = &j->frame, .strokes = j->marks, .count = j->mark_count};
     marks.line_radius = fmax(0.8, shorter / 450.0);
-    marks.dot_radius = fmax(1.5, shorter / 150.0);
+    marks.dot_radius = fmax(1.5, shorter / 110.0);
     marks.nearness = 1.002;
     j->picture.strokes = strokes;
     j->picture.marks = marks;

@@ -74,11 +74,12 @@ static inline float floor_of(const float *depths, unsigned group_count)
         vector8i less = other < least;
         least = (vector8f)(((vector8i)other & less) | ((vector8i)least & ~less));
     }
-    float floor = least[0];
-    for (int i = 1; i < MT_GROUP_SIZE; i++) {
-        floor = least[i] < floor ? least[i] : floor;
-    }
-    return floor;
+    vector4f low = __builtin_shufflevector(least, least, 0, 1, 2, 3);
+    vector4f high = __builtin_shufflevector(least, least, 4, 5, 6, 7);
+    vector4i less = low < high;
+    low = (vector4f)(((vector4i)low & less) | ((vector4i)high & ~less));
+    float a = low[0] < low[1] ? low[0] : low[1], b = low[2] < low[3] ? low[2] : low[3];
+    return a < b ? a : b;
 }
 
 /* Offsets of a small triangle's functions at the samples of a pixel. */

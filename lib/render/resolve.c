@@ -5,7 +5,7 @@
 #include "lib/render/vectors.h"
 
 /* How much of a mark shines through what hides it. */
-#define HIDDEN_MARK 0.3
+#define HIDDEN_MARK 0.4
 
 /* A sum of light; alpha counts what of the pixel is covered. */
 typedef struct light_sum {

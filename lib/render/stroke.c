@@ -54,8 +54,8 @@ mt_tile_range mt_stroke_range(const mt_stroke_set *set, mt_index stroke)
     }
     segment s = segment_of(set, stroke);
     pixel_box box = box_of(&s);
-    return mt_tile_range_of(box.first_x, box.first_y, box.last_x, box.last_y, set->frame->camera.width,
-                            set->frame->camera.height);
+    return mt_tile_range_of((int32_t)box.first_x, (int32_t)box.first_y, (int32_t)box.last_x, (int32_t)box.last_y,
+                            set->frame->camera.width, set->frame->camera.height);
 }
 
 static inline double distance_squared(const segment *s, double x, double y)

@@ -27,6 +27,7 @@
 
 typedef double vector8d __attribute__((vector_size(64), may_alias));
 typedef float vector8f __attribute__((vector_size(32), may_alias));
+typedef float vector4f __attribute__((vector_size(16), may_alias));
 typedef int32_t vector4i __attribute__((vector_size(16), may_alias));
 typedef int32_t vector8i __attribute__((vector_size(32), may_alias));
 
