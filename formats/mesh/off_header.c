@@ -129,7 +129,7 @@ mt_status mt_off_read_header(mt_context *context, mt_text *text, mt_off_header *
     mt_status status = MT_OK;
     *out = (mt_off_header){0};
     for (uint64_t i = 0; status == MT_OK && !reader.complete && i < mt_text_block_count(text); i++) {
-        status = mt_text_parse_one(context, text, i, scan_header, &reader);
+        status = mt_text_parse_some(context, text, "reading", i, i + 1, scan_header, &reader);
     }
     if (status == MT_OK && !reader.complete) {
         mt_place place = {.file = mt_text_name(text)};

@@ -20,16 +20,7 @@ static const char *body_begin(const mt_off_reader *reader, const mt_text_block *
 static void count_lines(void *user, mt_text_block *block)
 {
     const mt_off_reader *reader = user;
-    uint64_t count = 0;
-    bool plain = !memchr(block->begin, '\r', (size_t)(block->end - block->begin));
-    for (const char *at = body_begin(reader, block); at < block->end;) {
-        at = mt_skip_blanks(at);
-        count += !mt_is_line_end(*at) && *at != '#';
-        /* The block's own final line end is always found. */
-        const char *end = plain ? memchr(at, '\n', (size_t)(block->end - at) + 1) : mt_find_line_end(at);
-        at = mt_skip_line_end(end, block->end);
-    }
-    reader->blocks[block->number].line_count = count;
+    reader->blocks[block->number].line_count = mt_text_count_telling_lines(body_begin(reader, block), block->end, '#');
 }
 
 /* Passes over `count` lines that say something. */
@@ -60,6 +51,7 @@ static void look_at_faces(void *user, mt_text_block *block)
         return;
     }
     const char *at = skip_lines(body_begin(reader, block), block->end, before);
+    bool plain = !memchr(at, '\r', (size_t)(block->end - at));
     for (; count > 0; count--) {
         const char *stop;
         at = mt_off_next_line(at, block->end);
@@ -68,7 +60,8 @@ static void look_at_faces(void *user, mt_text_block *block)
         own->fewest_sides = sides < own->fewest_sides ? sides : own->fewest_sides;
         own->most_sides = sides > own->most_sides ? sides : own->most_sides;
         own->corner_count += sides;
-        at = mt_skip_line_end(mt_find_line_end(stop), block->end);
+        at = mt_skip_line_end(plain ? memchr(stop, '\n', (size_t)(block->end - stop) + 1) : mt_find_line_end(stop),
+                              block->end);
     }
 }
 
@@ -161,7 +154,13 @@ static mt_status read_body(mt_context *context, mt_off_reader *reader)
         status = number_lines(reader);
     }
     if (status == MT_OK) {
-        status = mt_text_parse(context, reader->text, "counting", look_at_faces, reader);
+        uint64_t first = 0;
+        while (first < reader->block_count &&
+               reader->blocks[first].first_line + reader->blocks[first].line_count <= reader->header.vertex_count) {
+            first++;
+        }
+        status =
+            mt_text_parse_some(context, reader->text, "counting", first, reader->block_count, look_at_faces, reader);
     }
     if (status == MT_OK) {
         status = create_mesh(reader);

@@ -20,13 +20,7 @@ typedef struct ascii_reader {
 static void count_lines(void *user, mt_text_block *block)
 {
     const ascii_reader *r = user;
-    uint64_t count = 0;
-    for (const char *at = block->begin; at < block->end;) {
-        at = mt_skip_blanks(at);
-        count += !mt_is_line_end(*at);
-        at = mt_skip_line_end(mt_find_line_end(at), block->end);
-    }
-    r->block_lines[block->number] = count;
+    r->block_lines[block->number] = mt_text_count_telling_lines(block->begin, block->end, 0);
 }
 
 static void parse_block(void *user, mt_text_block *block)

@@ -205,39 +205,31 @@ static mt_status report_failure(mt_context *context, mt_text *text)
     return mt_fail_at(context, first->status, place, "%s", first->message);
 }
 
-static void begin_parsing(mt_text *text, mt_text_parse_function parse, void *user)
+mt_status mt_text_parse_some(mt_context *context, mt_text *text, const char *task, uint64_t begin, uint64_t end,
+                             mt_text_parse_function parse, void *user)
 {
+    mt_status status = MT_OK;
     text->parse = parse;
     text->user = user;
     atomic_store(&text->failed_block, UINT64_MAX);
     for (unsigned i = 0; i < text->slot_count; i++) {
         text->slots[i].failure.status = MT_OK;
     }
-}
-
-mt_status mt_text_parse(mt_context *context, mt_text *text, const char *task, mt_text_parse_function parse, void *user)
-{
-    mt_status status = MT_OK;
-    begin_parsing(text, parse, user);
-    for (uint64_t begin = 0; status == MT_OK && begin < text->block_count; begin += WAVE) {
-        uint64_t count = text->block_count - begin < WAVE ? text->block_count - begin : WAVE;
-        text->wave_begin = begin;
+    for (uint64_t at = begin; status == MT_OK && at < end; at += WAVE) {
+        uint64_t count = end - at < WAVE ? end - at : WAVE;
+        text->wave_begin = at;
         mt_parallel_for(context, count, 1, run_blocks, text);
         status = report_failure(context, text);
-        if (status == MT_OK && begin + count < text->block_count) {
-            status = mt_progress(context, task, (double)(begin + count) / (double)text->block_count);
+        if (status == MT_OK && at + count < end) {
+            status = mt_progress(context, task, (double)(at + count) / (double)text->block_count);
         }
     }
     return status;
 }
 
-mt_status mt_text_parse_one(mt_context *context, mt_text *text, uint64_t block, mt_text_parse_function parse,
-                            void *user)
+mt_status mt_text_parse(mt_context *context, mt_text *text, const char *task, mt_text_parse_function parse, void *user)
 {
-    begin_parsing(text, parse, user);
-    text->wave_begin = block;
-    run_blocks(text, 0, 1);
-    return report_failure(context, text);
+    return mt_text_parse_some(context, text, task, 0, text->block_count, parse, user);
 }
 
 static void count_block(void *user, mt_text_block *block)

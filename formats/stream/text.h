@@ -53,9 +53,13 @@ mt_status mt_text_count_lines(mt_context *context, mt_text *text, uint64_t *tota
  * blocks may go unparsed, earlier ones never. May be called again. */
 typedef void (*mt_text_parse_function)(void *user, mt_text_block *block);
 mt_status mt_text_parse(mt_context *context, mt_text *text, const char *task, mt_text_parse_function parse, void *user);
-/* The same for one block. */
-mt_status mt_text_parse_one(mt_context *context, mt_text *text, uint64_t block, mt_text_parse_function parse,
-                            void *user);
+/* The same for blocks [begin, end) alone. */
+mt_status mt_text_parse_some(mt_context *context, mt_text *text, const char *task, uint64_t begin, uint64_t end,
+                             mt_text_parse_function parse, void *user);
+
+/* How many lines of a block say something, from `at` on: they are not blank, and do not begin with the comment
+ * character (0: there is none). */
+uint64_t mt_text_count_telling_lines(const char *at, const char *end, char comment);
 
 /* Inside parse: records a failure at a byte of the block (NULL: without a place). The first in the block wins; the
  * parser should return after it. */

@@ -134,6 +134,41 @@ static void test_lines_are_kept_whole(void **state)
     test_context_end(context);
 }
 
+/* By the definition: a line at a time. */
+static size_t count_telling(const char *bytes, size_t size, char comment)
+{
+    static size_t begins[LINE_ROOM];
+    size_t count = split_lines(bytes, size, false, begins), telling = 0;
+    for (size_t i = 0; i < count; i++) {
+        size_t at = begins[i], end = i + 1 < count ? begins[i + 1] : size;
+        while (at < end && (mt_is_blank(bytes[at]) || mt_is_line_end(bytes[at]))) {
+            at++;
+        }
+        telling += at < end && (!comment || bytes[at] != comment);
+    }
+    return telling;
+}
+
+static void test_telling_lines(void **state)
+{
+    (void)state;
+    test_random random = {13};
+    char bytes[TEXT_ROOM + MT_TEXT_PADDING + 1];
+    for (int round = 0; round < 20000; round++) {
+        static const char letters[] = "aaaaaaa\n\n b#\t\r";
+        unsigned kinds = 8 + (unsigned)test_random_below(&random, sizeof letters - 8);
+        size_t size = (size_t)test_random_below(&random, round % 2 ? 30 : 600);
+        for (size_t i = 0; i < size; i++) {
+            bytes[i] = letters[test_random_below(&random, kinds)];
+        }
+        memset(bytes + size, 0, MT_TEXT_PADDING + 1);
+        bytes[size] = '\n';
+        char comment = round % 3 ? '#' : '\0';
+        assert_int_equal(mt_text_count_telling_lines(bytes, bytes + size, comment),
+                         count_telling(bytes, size, comment));
+    }
+}
+
 static bool begins_with_b(const char *line, const char *end)
 {
     return line < end && *line == 'b';
@@ -266,6 +301,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lines_are_kept_whole),
+        cmocka_unit_test(test_telling_lines),
         cmocka_unit_test(test_blocks_begin_where_allowed),
         cmocka_unit_test(test_first_failure_in_the_file_wins),
         cmocka_unit_test(test_long_line),
