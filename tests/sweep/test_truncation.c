@@ -8,8 +8,12 @@
 
 #include <meshtool/mesh_format.h>
 
+#include <dirent.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#define STORED_LIMIT 4000 /* bytes of a stored file that is cut everywhere: the time grows with the square */
 
 /* The last line of a text, where a cut may leave a shorter number. */
 static size_t last_line(const char *bytes, size_t size)
@@ -128,8 +132,55 @@ static void test_every_cut_of_every_format(void **state)
     test_context_end(context);
 }
 
+/* The small files of meshes/, as they are: other writers' headers, comments and line ends. */
+static void sweep_stored_file(mt_context *context, const char *path)
+{
+    size_t size;
+    unsigned char *bytes = test_read_file(path, &size);
+    const mt_mesh_format *format;
+    mt_mesh *whole;
+    assert_non_null(bytes);
+    if (size <= STORED_LIMIT) {
+        mt_context_clear_error(context);
+        if (mt_mesh_read_memory(context, path, bytes, size, NULL, &whole, &format) != MT_OK) {
+            fail_msg("%s", mt_context_error(context)->message);
+        }
+        bool binary = memchr(bytes, 0, size) != NULL;
+        sweep s = {.format = format, .animal = path, .name = path, .text = !binary};
+        for (size_t i = 0; i < size; i++) {
+            cut(context, &s, (const char *)bytes, i, size, whole);
+        }
+        mt_mesh_destroy(context, whole);
+    }
+    free(bytes);
+}
+
+static void test_every_cut_of_stored_files(void **state)
+{
+    (void)state;
+    static const char *const folders[] = {"meshes/valid", "meshes/non_manifold"};
+    mt_context *context = test_context_with_threads(1);
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
+        DIR *folder = opendir(folders[i]);
+        assert_non_null(folder);
+        for (struct dirent *entry; (entry = readdir(folder));) {
+            char path[512];
+            snprintf(path, sizeof path, "%s/%s", folders[i], entry->d_name);
+            if (entry->d_name[0] != '.') {
+                sweep_stored_file(context, path);
+                count++;
+            }
+        }
+        closedir(folder);
+    }
+    assert_true(count > 10);
+    test_context_end(context);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_cut_of_every_format)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_cut_of_every_format),
+                                       cmocka_unit_test(test_every_cut_of_stored_files)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
