@@ -181,10 +181,13 @@ static void expect_refusal(mt_context *context, const test_structure *kind, cons
     assert_int_equal(kind->create(context, mesh, &structure), status);
     assert_null(structure);
     assert_int_equal(mt_context_error(context)->status, status);
+    char offender[1024]; /* what comes before the first semicolon; who needs it otherwise comes after */
+    strcpy(offender, mt_context_error(context)->message);
+    offender[strcspn(offender, ";")] = 0;
     if (*message) {
-        assert_string_equal(mt_context_error(context)->message, message);
+        assert_string_equal(offender, message);
     }
-    strcpy(message, mt_context_error(context)->message);
+    strcpy(message, offender);
     mt_context_clear_error(context);
 }
 
