@@ -33,13 +33,14 @@ static mt_mesh *grid(mt_context *context, mt_index side)
     return triangles;
 }
 
-static size_t prepare(mt_context *context, const mt_mesh *mesh, target *targets)
+/* Of the formats that hold indices, or of those that do not. */
+static size_t prepare(mt_context *context, const mt_mesh *mesh, unsigned indices, target *targets)
 {
     size_t count = 0;
     for (const mt_mesh_format *const *format = mt_mesh_formats(); *format; format++) {
         const bool has[] = {(*format)->has_ascii, (*format)->has_binary, (*format)->has_binary_big};
         for (int encoding = 0; encoding < 3; encoding++) {
-            if (!has[encoding]) {
+            if (!has[encoding] || ((*format)->abilities & MT_HOLDS_INDICES) != indices) {
                 continue;
             }
             target *t = &targets[count++];
@@ -115,7 +116,8 @@ static void test_failing_allocations(void **state)
     target targets[32];
     mt_context *context = test_context_with_threads(2);
     mt_mesh *mesh = grid(context, SIDE);
-    size_t count = prepare(context, mesh, targets);
+    size_t count = prepare(context, mesh, MT_HOLDS_INDICES, targets);
+    count += prepare(context, mesh, 0, targets + count);
     for (size_t i = 0; i < count; i++) {
         sweep_allocations(mesh, &targets[i], false);
         sweep_allocations(mesh, &targets[i], true);
@@ -152,21 +154,25 @@ static uint64_t sweep_cancelling(const mt_mesh *mesh, const target *t, bool writ
     }
 }
 
-/* 35 MB and more of text: enough for the readers to ask whether to go on. */
+/* Enough for the readers of text to ask whether to go on: 32 MB and more. A format without indices takes five times
+ * the bytes for the same faces. */
 static void test_cancelling(void **state)
 {
     (void)state;
     target targets[32];
     mt_context *context = test_context_with_threads(2);
-    mt_mesh *mesh = grid(context, 1200);
-    size_t count = prepare(context, mesh, targets);
-    for (size_t i = 0; i < count; i++) {
-        uint64_t reads = sweep_cancelling(mesh, &targets[i], false), writes = sweep_cancelling(mesh, &targets[i], true);
-        print_message("%s, encoding %d: %llu steps of reading, %llu of writing\n", targets[i].name, targets[i].encoding,
-                      (unsigned long long)reads, (unsigned long long)writes);
-        mt_free(context, targets[i].bytes);
+    for (unsigned indexed = 0; indexed < 2; indexed++) {
+        mt_mesh *mesh = grid(context, indexed ? 1000 : 450);
+        size_t count = prepare(context, mesh, indexed ? MT_HOLDS_INDICES : 0, targets);
+        for (size_t i = 0; i < count; i++) {
+            uint64_t reads = sweep_cancelling(mesh, &targets[i], false);
+            uint64_t writes = sweep_cancelling(mesh, &targets[i], true);
+            print_message("%s, encoding %d: %llu steps of reading, %llu of writing\n", targets[i].name,
+                          targets[i].encoding, (unsigned long long)reads, (unsigned long long)writes);
+            mt_free(context, targets[i].bytes);
+        }
+        mt_mesh_destroy(context, mesh);
     }
-    mt_mesh_destroy(context, mesh);
     test_context_end(context);
 }
 
