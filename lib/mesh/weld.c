@@ -11,10 +11,11 @@
 
 #define RUN_LENGTH 32768u /* corners; a run's table, two slots a corner, fits the second-level cache */
 #define RUN_SLOTS (2 * RUN_LENGTH)
-#define RUN_INDEX_BITS 16   /* holds 1 to RUN_LENGTH, 0 is an empty slot; the other bits of a slot are of the hash */
-#define BATCH 32u           /* slots fetched ahead */
-#define CORNERS_A_VERTEX 5u /* six in a closed mesh of triangles; guesses the first size of the table, which may grow  \
-                             */
+#define RUN_INDEX_BITS 16 /* holds 1 to RUN_LENGTH, 0 is an empty slot; the other bits of a slot are of the hash */
+#define BATCH 32u         /* slots fetched ahead */
+#define CORNERS_A_VERTEX                                                                                               \
+    5u /* six in a closed mesh of triangles; guesses the first size of the table, which may grow                       \
+        */
 
 /* A point's coordinates as integers that are equal exactly when the points are. */
 typedef struct point_key {

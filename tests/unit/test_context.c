@@ -1,6 +1,6 @@
 /* The context: the limit and the count of bytes, the failing allocation, the first error, parallel blocks. */
-#include "tests/support/unit.h"
 #include "tests/support/fixture.h"
+#include "tests/support/unit.h"
 
 #include <string.h>
 
