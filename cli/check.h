@@ -18,8 +18,8 @@ typedef struct cli_check {
     const mt_mesh_format *format;
     const mt_mesh *mesh;
     const mt_manifold_report *report;
-    uint64_t listed_per_kind;          /* defects in JSON */
-    bool fails_closed, fails_oriented; /* what was asked for and does not hold */
+    uint64_t listed_per_kind;                       /* defects in JSON */
+    bool fails_closed, fails_oriented, fails_apart; /* what was asked for and does not hold */
 } cli_check;
 
 /* Whether the answer to all that was asked is yes. */

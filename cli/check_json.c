@@ -54,7 +54,9 @@ static void set_shape(json_t *object, const mt_manifold_report *report)
     cli_json_set(object, "genus", report->has_genus ? cli_json_integer(report->genus) : json_null());
     cli_json_set(object, "area", cli_json_real(report->area));
     cli_json_set(object, "volume", report->has_volume ? cli_json_real(report->volume) : json_null());
-    cli_json_set(object, "self_intersections", json_null());
+    cli_json_set(object, "self_intersections",
+                 report->has_self_intersections ? cli_json_integer(report->defect_counts[MT_DEFECT_SELF_INTERSECTION])
+                                                : json_null());
     cli_json_set(object, "as_welded", json_null());
 }
 

@@ -19,7 +19,7 @@ static const defect_color colors[MT_DEFECT_KIND_COUNT] = {
     [MT_DEFECT_DUPLICATE_FACE] = {"orange", {255, 140, 0}},    [MT_DEFECT_NON_MANIFOLD_EDGE] = {"red", {220, 20, 20}},
     [MT_DEFECT_NON_MANIFOLD_VERTEX] = {"blue", {30, 70, 230}}, [MT_DEFECT_MISORIENTED_EDGE] = {"yellow", {240, 210, 0}},
     [MT_DEFECT_ZERO_AREA_FACE] = {"purple", {120, 40, 160}},   [MT_DEFECT_ISOLATED_VERTEX] = {"cyan", {0, 190, 210}},
-    [MT_DEFECT_BOUNDARY_EDGE] = {"green", {20, 150, 60}},
+    [MT_DEFECT_SELF_INTERSECTION] = {"brown", {130, 75, 25}},  [MT_DEFECT_BOUNDARY_EDGE] = {"green", {20, 150, 60}},
 };
 
 static const unsigned char neutral[3] = {205, 205, 205};
@@ -82,12 +82,22 @@ static bool paints_faces(mt_defect_kind kind, bool for_picture)
     return kind != MT_DEFECT_BOUNDARY_EDGE && !(for_picture && kind == MT_DEFECT_MISORIENTED_EDGE);
 }
 
-static void paint_defect(const mt_defect *defect, bool for_picture, defect_paint *paint)
+static void paint_vertices_of(const mt_mesh *mesh, mt_index face, const unsigned char *color, defect_paint *paint)
+{
+    for (mt_index c = mt_mesh_face_begin(mesh, face); c < mt_mesh_face_end(mesh, face); c++) {
+        memcpy(paint->vertices + 3 * (size_t)mesh->corner_vertices[c], color, 3);
+    }
+}
+
+static void paint_defect(const mt_mesh *mesh, const mt_defect *defect, bool for_picture, defect_paint *paint)
 {
     const unsigned char *color = colors[defect->kind].rgb;
     mt_index face_count = paints_faces(defect->kind, for_picture) ? defect->face_count : 0;
     for (mt_index i = 0; i < face_count; i++) {
         memcpy(paint->faces + 3 * (size_t)defect->faces[i], color, 3);
+        if (defect->kind == MT_DEFECT_SELF_INTERSECTION) {
+            paint_vertices_of(mesh, defect->faces[i], color, paint);
+        }
     }
     for (mt_index i = 0; i < defect->vertex_count; i++) {
         memcpy(paint->vertices + 3 * (size_t)defect->vertices[i], color, 3);
@@ -102,10 +112,10 @@ static void paint_defect(const mt_defect *defect, bool for_picture, defect_paint
 }
 
 /* The last to mend first, so that what is to be mended first is not painted over. */
-static void paint_all(const mt_manifold_report *report, bool for_picture, defect_paint *paint)
+static void paint_all(const cli_check *check, bool for_picture, defect_paint *paint)
 {
-    for (size_t i = report->defect_list_count; i-- > 0;) {
-        paint_defect(&report->defects[i], for_picture, paint);
+    for (size_t i = check->report->defect_list_count; i-- > 0;) {
+        paint_defect(check->mesh, &check->report->defects[i], for_picture, paint);
     }
 }
 
@@ -218,7 +228,7 @@ cli_exit cli_check_paint(const cli_job *job, const cli_check *check, const char 
         return cli_report_failure(job, check->file);
     }
     bool for_picture = is_picture(job, path);
-    paint_all(check->report, for_picture, &paint);
+    paint_all(check, for_picture, &paint);
     cli_exit code = for_picture ? write_picture(job, check, &paint, path) : write_painted(job, check, &paint, path);
     if (code == CLI_EXIT_DONE) {
         say_legend(job, check, path);

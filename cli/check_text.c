@@ -20,6 +20,30 @@ static cli_quantity place_of(const mt_mesh *mesh, const mt_defect *defect)
     return cli_point(mean);
 }
 
+typedef struct extent {
+    mt_vec3 low, high;
+} extent;
+
+static extent extent_of(const mt_mesh *mesh, mt_index face)
+{
+    extent all = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (mt_index c = mt_mesh_face_begin(mesh, face); c < mt_mesh_face_end(mesh, face); c++) {
+        mt_vec3 p = mt_mesh_position(mesh, mesh->corner_vertices[c]);
+        all.low = mt_vec3_make(fmin(all.low.x, p.x), fmin(all.low.y, p.y), fmin(all.low.z, p.z));
+        all.high = mt_vec3_make(fmax(all.high.x, p.x), fmax(all.high.y, p.y), fmax(all.high.z, p.z));
+    }
+    return all;
+}
+
+/* The middle of what the boxes of two faces share, in which all their common points lie. */
+static cli_quantity meeting_place(const mt_mesh *mesh, const mt_defect *defect)
+{
+    extent a = extent_of(mesh, defect->faces[0]), b = extent_of(mesh, defect->faces[1]);
+    return cli_point(mt_vec3_make(fmax(a.low.x, b.low.x) / 2 + fmin(a.high.x, b.high.x) / 2,
+                                  fmax(a.low.y, b.low.y) / 2 + fmin(a.high.y, b.high.y) / 2,
+                                  fmax(a.low.z, b.low.z) / 2 + fmin(a.high.z, b.high.z) / 2));
+}
+
 static void add_list(cli_line *line, const char *noun, const mt_index *numbers, mt_index count)
 {
     cli_line_add(line, "%s ", cli_plural(count, noun).text);
@@ -36,7 +60,14 @@ static void print_example(const cli_check *check, const mt_defect *defect)
 {
     cli_line line = {0};
     cli_quantity place = place_of(check->mesh, defect);
-    if (cli_defect_is_of_edges(defect->kind)) {
+    if (cli_defect_is_of_pairs(defect->kind)) {
+        cli_line_add(&line, "faces %u and %u, around %s", defect->faces[0], defect->faces[1],
+                     meeting_place(check->mesh, defect).text);
+        if (defect->vertex_count) {
+            cli_line_add(&line, ", sharing ");
+            add_list(&line, "vertex", defect->vertices, defect->vertex_count);
+        }
+    } else if (cli_defect_is_of_edges(defect->kind)) {
         mt_index a = defect->vertices[0], b = defect->vertices[1];
         cli_line_add(&line, "edge %u-%u at %s, in ", a < b ? a : b, a < b ? b : a, place.text);
         add_list(&line, "face", defect->faces, defect->face_count);

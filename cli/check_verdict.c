@@ -51,23 +51,41 @@ static void add_class(cli_line *line, const mt_manifold_report *report)
 static void add_others(cli_line *line, const mt_manifold_report *report)
 {
     static const mt_defect_kind others[] = {MT_DEFECT_NON_FINITE_VERTEX, MT_DEFECT_DUPLICATE_FACE,
-                                            MT_DEFECT_ZERO_AREA_FACE, MT_DEFECT_ISOLATED_VERTEX};
+                                            MT_DEFECT_ZERO_AREA_FACE, MT_DEFECT_SELF_INTERSECTION,
+                                            MT_DEFECT_ISOLATED_VERTEX};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         if (report->defect_counts[others[i]]) {
             cli_line_add(line, "; %s", cli_defects_told(report, others[i]).text);
         }
     }
+    if (report->has_self_intersections && report->defect_counts[MT_DEFECT_SELF_INTERSECTION] == 0) {
+        cli_line_add(line, "; no faces intersect");
+    }
+}
+
+/* "not closed and not oriented: " */
+static void add_failures(cli_line *line, const cli_check *check)
+{
+    const char *const failures[] = {check->fails_closed ? "not closed" : NULL,
+                                    check->fails_oriented ? "not oriented" : NULL,
+                                    check->fails_apart ? "not free of self-intersections" : NULL};
+    size_t count = 0, index = 0;
+    for (int i = 0; i < 3; i++) {
+        count += failures[i] != NULL;
+    }
+    for (int i = 0; i < 3; i++) {
+        if (failures[i]) {
+            cli_line_add_item(line, index++, count, failures[i]);
+        }
+    }
+    cli_line_add(line, count ? ": " : "");
 }
 
 void cli_check_print_verdict(const cli_check *check)
 {
     cli_line line = {0};
     cli_line_add(&line, "%s: ", check->file);
-    if (check->fails_closed || check->fails_oriented) {
-        cli_line_add(&line, "%s%s%s: ", check->fails_closed ? "not closed" : "",
-                     check->fails_closed && check->fails_oriented ? " and " : "",
-                     check->fails_oriented ? "not oriented" : "");
-    }
+    add_failures(&line, check);
     add_class(&line, check->report);
     add_others(&line, check->report);
     printf("%s.\n", line.text);

@@ -5,7 +5,7 @@
 /* What a kind of defect is, for one and for several, how it is mended, and what it is found on. */
 typedef struct defect_words {
     const char *one, *several, *cure_one, *cure_several;
-    char element; /* v, e or f */
+    char element; /* v, e, f, or p for a pair of faces */
     bool breaks;
 } defect_words;
 
@@ -32,6 +32,10 @@ static const defect_words words[MT_DEFECT_KIND_COUNT] = {
                                   "faces have no area, as the vertices of each lie on one line",
                                   "collapse it, or move a vertex", "collapse them, or move a vertex of each", 'f',
                                   false},
+    [MT_DEFECT_SELF_INTERSECTION] = {"pair of faces intersects", "pairs of faces intersect",
+                                     "move them apart, or cut both along where they meet and drop what is inside",
+                                     "move them apart, or cut them along where they meet and drop what is inside", 'p',
+                                     false},
     [MT_DEFECT_ISOLATED_VERTEX] = {"vertex is in no face", "vertices are in no face", "drop it, or leave it",
                                    "drop them, or leave them", 'v', false},
     [MT_DEFECT_BOUNDARY_EDGE] = {"edge has only one face", "edges have only one face",
@@ -64,6 +68,11 @@ bool cli_defect_breaks(mt_defect_kind kind)
 bool cli_defect_is_of_edges(mt_defect_kind kind)
 {
     return words[kind].element == 'e';
+}
+
+bool cli_defect_is_of_pairs(mt_defect_kind kind)
+{
+    return words[kind].element == 'p';
 }
 
 bool cli_defect_is_of_faces(mt_defect_kind kind)

@@ -16,6 +16,7 @@ const char *cli_defect_cure(const mt_manifold_report *report, mt_defect_kind kin
 bool cli_defect_breaks(mt_defect_kind kind);
 
 bool cli_defect_is_of_edges(mt_defect_kind kind);
+bool cli_defect_is_of_pairs(mt_defect_kind kind); /* of faces */
 bool cli_defect_is_of_faces(mt_defect_kind kind);
 
 #endif

@@ -21,16 +21,17 @@ static const cli_option options[] = {
      .help = "write the mesh (ply) or a picture (png) with the defects coloured"},
     {.name = "watertight",
      .offset = offsetof(check_settings, watertight),
-     .help = "not in this version: needs the search for self-intersections"},
+     .help = "demand both, and that no two faces intersect"},
     {.name = "self-intersections",
      .offset = offsetof(check_settings, self_intersections),
-     .help = "not in this version"},
+     .help = "also search for pairs of faces that intersect, decided exactly"},
     {0},
 };
 
 bool cli_check_holds(const cli_check *check)
 {
-    return check->report->manifold_class != MT_NON_MANIFOLD && !check->fails_closed && !check->fails_oriented;
+    return check->report->manifold_class != MT_NON_MANIFOLD && !check->fails_closed && !check->fails_oriented &&
+           !check->fails_apart;
 }
 
 typedef enum check_form { CHECK_FORM_NONE, CHECK_FORM_JSON, CHECK_FORM_VERDICT, CHECK_FORM_TEXT } check_form;
@@ -69,8 +70,10 @@ static cli_exit report_on(const cli_job *job, cli_check *check)
 {
     const check_settings *settings = job->settings;
     const mt_manifold_report *report = check->report;
-    check->fails_closed = settings->closed && report->manifold_class != MT_MANIFOLD;
-    check->fails_oriented = settings->oriented && report->oriented != MT_YES;
+    bool watertight = settings->watertight;
+    check->fails_closed = (watertight || settings->closed) && report->manifold_class != MT_MANIFOLD;
+    check->fails_oriented = (watertight || settings->oriented) && report->oriented != MT_YES;
+    check->fails_apart = watertight && report->defect_counts[MT_DEFECT_SELF_INTERSECTION] > 0;
     cli_exit code = settings->paint ? cli_check_paint(job, check, settings->paint) : CLI_EXIT_DONE;
     if (code != CLI_EXIT_DONE) {
         return code;
@@ -89,7 +92,8 @@ static cli_exit check_file(const cli_job *job, const char *file)
         return code;
     }
     bool needs_all = settings->paint || form_of(job) == CHECK_FORM_TEXT;
-    mt_manifold_options how = {.defects_per_kind = needs_all ? UINT64_MAX : check.listed_per_kind};
+    mt_manifold_options how = {.defects_per_kind = needs_all ? UINT64_MAX : check.listed_per_kind,
+                               .self_intersections = settings->self_intersections || settings->watertight};
     mt_manifold_report report;
     if (mt_check_manifold(job->context, mesh, &how, &report) != MT_OK) {
         code = cli_report_failure(job, file);
@@ -106,10 +110,6 @@ static cli_exit check_file(const cli_job *job, const char *file)
 static cli_exit check_usage(const cli_job *job)
 {
     const check_settings *settings = job->settings;
-    if (settings->watertight || settings->self_intersections) {
-        return cli_wrong_usage(job->command, "--%s: this version does not search for self-intersections",
-                               settings->watertight ? "watertight" : "self-intersections");
-    }
     cli_exit code = cli_check_inputs(job);
     if (code != CLI_EXIT_DONE || !settings->paint) {
         return code;
@@ -128,7 +128,7 @@ static cli_exit run(const cli_job *job)
 
 const cli_command cli_check_manifold_command = {
     .name = "check-manifold",
-    .usage = "FILE... [--closed] [--oriented] [--paint OUT]",
+    .usage = "FILE... [--closed] [--oriented] [--watertight] [--paint OUT]",
     .summary = "Say whether a mesh is manifold; if not, what is wrong and where",
     .description =
         "The exit code is 0 when every edge has one or two faces and every vertex one fan of them, and 1 when "
@@ -136,6 +136,7 @@ const cli_command cli_check_manifold_command = {
         "are equal bit for bit. Several FILEs get a line each; -v gives all of each.",
     .examples = "  meshtool check-manifold cow.obj\n"
                 "  meshtool check-manifold cow.obj --closed --oriented --paint defects.png\n"
+                "  meshtool check-manifold bracket.stl --watertight\n"
                 "  meshtool check-manifold *.stl --json\n",
     .options = options,
     .groups =

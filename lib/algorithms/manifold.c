@@ -9,6 +9,8 @@
 
 #include <string.h>
 
+#define LISTED_BY_DEFAULT 100 /* defects of each kind */
+
 static uint64_t count_triangles(const mt_mesh *mesh)
 {
     return (uint64_t)mesh->corner_count - 2 * (uint64_t)mesh->face_count;
@@ -94,7 +96,18 @@ static void find_genus(mt_manifold_report *report)
     }
 }
 
-static mt_status run_check(manifold_check *check, uint64_t defects_per_kind)
+static mt_status find_self_intersections(manifold_check *check)
+{
+    mt_manifold_report *report = check->report;
+    mt_status status = mt_find_self_intersections(check->context, check->mesh, NULL, &check->intersections);
+    if (status == MT_OK) {
+        report->has_self_intersections = true;
+        report->defect_counts[MT_DEFECT_SELF_INTERSECTION] = (mt_index)check->intersections.pair_count;
+    }
+    return status;
+}
+
+static mt_status run_check(manifold_check *check, const mt_manifold_options *options)
 {
     mt_context *context = check->context;
     mt_status status = mt_edge_pairs_create(context, check->mesh, &check->pairs);
@@ -118,7 +131,11 @@ static mt_status run_check(manifold_check *check, uint64_t defects_per_kind)
         status = status == MT_OK ? geometry[i](check) : status;
     }
     find_genus(check->report);
-    return status == MT_OK ? mt_manifold_list_defects(check, defects_per_kind) : status;
+    if (status == MT_OK && options->self_intersections) {
+        status = find_self_intersections(check);
+    }
+    uint64_t limit = options->defects_per_kind ? options->defects_per_kind : LISTED_BY_DEFAULT;
+    return status == MT_OK ? mt_manifold_list_defects(check, limit) : status;
 }
 
 static void release_check(manifold_check *check)
@@ -128,6 +145,7 @@ static void release_check(manifold_check *check)
     mt_free(check->context, check->face_flags);
     mt_free(check->context, check->vertex_is_non_finite);
     mt_free(check->context, check->duplicates);
+    mt_self_intersections_release(check->context, &check->intersections);
 }
 
 mt_status mt_check_manifold(mt_context *context, const mt_mesh *mesh, const mt_manifold_options *options,
@@ -140,8 +158,8 @@ mt_status mt_check_manifold(mt_context *context, const mt_mesh *mesh, const mt_m
                                    .boundary_loop_count = MT_NONE};
     int part = mt_part_begin(context, "manifold check", "every count of the report");
     manifold_check check = {.context = context, .mesh = mesh, .report = report};
-    uint64_t defects_per_kind = options && options->defects_per_kind ? options->defects_per_kind : 100;
-    mt_status status = run_check(&check, defects_per_kind);
+    static const mt_manifold_options defaults = {0};
+    mt_status status = run_check(&check, options ? options : &defaults);
     release_check(&check);
     if (status != MT_OK) {
         mt_manifold_report_release(context, report);

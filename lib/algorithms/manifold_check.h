@@ -5,6 +5,7 @@
 #include <meshtool/components.h>
 #include <meshtool/edge_pairs.h>
 #include <meshtool/manifold.h>
+#include <meshtool/self_intersection.h>
 #include <meshtool/vertex_fans.h>
 
 /* Blocks of loops; sums are formed block by block, so they never depend on the threads. */
@@ -28,6 +29,7 @@ typedef struct manifold_check {
     uint8_t *vertex_is_non_finite; /* NULL when all are finite */
     mt_vec3 minimum, maximum;      /* of the finite vertices that faces name; zero when there are none */
     duplicate_face *duplicates;    /* in the order of the faces; NULL when there are none */
+    mt_self_intersections intersections;
 } manifold_check;
 
 /* Each fills its part of the report; they run in this order. */

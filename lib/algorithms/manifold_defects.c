@@ -10,16 +10,16 @@
 const char *mt_defect_key(mt_defect_kind kind)
 {
     static const char *const keys[MT_DEFECT_KIND_COUNT] = {
-        "non_finite_vertices", "degenerate_faces", "duplicate_faces",   "non_manifold_edges", "non_manifold_vertices",
-        "misoriented_edges",   "zero_area_faces",  "isolated_vertices", "boundary_edges"};
+        "non_finite_vertices", "degenerate_faces", "duplicate_faces",    "non_manifold_edges", "non_manifold_vertices",
+        "misoriented_edges",   "zero_area_faces",  "self_intersections", "isolated_vertices",  "boundary_edges"};
     return keys[kind];
 }
 
 const char *mt_defect_words(mt_defect_kind kind)
 {
     static const char *const words[MT_DEFECT_KIND_COUNT] = {
-        "non-finite vertex", "degenerate face", "duplicate face",  "non-manifold edge", "non-manifold vertex",
-        "misoriented edge",  "zero-area face",  "isolated vertex", "boundary edge"};
+        "non-finite vertex", "degenerate face", "duplicate face",    "non-manifold edge", "non-manifold vertex",
+        "misoriented edge",  "zero-area face",  "self-intersection", "isolated vertex",   "boundary edge"};
     return words[kind];
 }
 
@@ -124,6 +124,34 @@ static void list_duplicates(defect_list *list)
         }
         add_face(list, defect, pair.earlier);
         add_face(list, defect, pair.face);
+    }
+}
+
+static bool face_names(const mt_mesh *mesh, mt_index face, mt_index vertex)
+{
+    for (mt_index c = mt_mesh_face_begin(mesh, face); c < mt_mesh_face_end(mesh, face); c++) {
+        if (mesh->corner_vertices[c] == vertex) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The two faces, and the vertices that both name. */
+static void list_self_intersections(defect_list *list)
+{
+    const mt_mesh *mesh = list->check->mesh;
+    const mt_self_intersections *found = &list->check->intersections;
+    for (uint64_t i = 0; i < found->pair_count && i < list->limit && !list->failed; i++) {
+        mt_face_pair pair = found->pairs[i];
+        mt_defect *defect = begin_defect(list, MT_DEFECT_SELF_INTERSECTION);
+        for (mt_index c = mt_mesh_face_begin(mesh, pair.a); c < mt_mesh_face_end(mesh, pair.a); c++) {
+            if (face_names(mesh, pair.b, mesh->corner_vertices[c])) {
+                add_vertex(list, defect, mesh->corner_vertices[c]);
+            }
+        }
+        add_face(list, defect, pair.a);
+        add_face(list, defect, pair.b);
     }
 }
 
@@ -300,6 +328,9 @@ static void list_kind(defect_list *list, mt_defect_kind kind)
         break;
     case MT_DEFECT_ZERO_AREA_FACE:
         list_faces(list, kind, FACE_ZERO_AREA);
+        break;
+    case MT_DEFECT_SELF_INTERSECTION:
+        list_self_intersections(list);
         break;
     case MT_DEFECT_ISOLATED_VERTEX:
         list_vertices(list, kind, check->fans->fans, MT_FANS_NONE);

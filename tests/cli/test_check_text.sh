@@ -79,6 +79,18 @@ run 0 check-manifold "$folder/points.obj"
 prints "1,234 vertices are in no face"
 prints "and 1,231 more"
 
+# Two triangles that pass through each other: listed with the place, and only --watertight minds.
+printf 'OFF\n6 2 0\n0 0 0\n4 0 0\n0 4 0\n1 1 -1\n1 1 1\n5 5 1\n3 0 1 2\n3 3 4 5\n' >"$folder/through.off"
+run 0 check-manifold "$folder/through.off" --self-intersections
+prints "consistently oriented; 1 pair of faces intersects."
+prints "faces 0 and 1, around (2.5, 2.5, 0)"
+run 1 check-manifold "$folder/through.off" --watertight
+prints "through.off: not closed and not free of self-intersections: manifold with boundary"
+run 0 check-manifold "$folder/cube.off" --watertight
+prints "manifold and closed, consistently oriented; no faces intersect."
+run 0 check-manifold "$folder/through.off" --self-intersections --paint "$folder/through.ply"
+says "brown 1 self-intersection"
+
 # Several files get a line each, with -v all of it.
 run 1 check-manifold "$folder/cube.off" "$folder/book.off"
 holds "a line a file" test "$(wc -l <"$folder/.out")" = 2

@@ -9,6 +9,10 @@ run 1 check-manifold "$folder/bowtie.off"
 run 1 check-manifold "$folder/book.off"
 run 0 check-manifold "$folder/flipped.off"
 run 1 check-manifold "$folder/flipped.off" --oriented
+run 0 check-manifold "$folder/cube.off" --watertight
+run 1 check-manifold "$folder/open.off" --watertight
+run 1 check-manifold "$folder/flipped.off" --watertight
+run 0 check-manifold "$folder/open.off" --self-intersections
 run 3 check-manifold "$folder/bad.off"
 says "$folder/bad.off:5"
 run 3 subdivide "$folder/bowtie.off" -o "$folder/x.off"

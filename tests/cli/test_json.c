@@ -95,6 +95,56 @@ static int remove_folder(void **state)
     return system(command);
 }
 
+static void self_intersections_are_counted_and_listed_when_asked_for(void **state)
+{
+    (void)state;
+    write_file("through.off", "OFF\n6 2 0\n0 0 0\n4 0 0\n0 4 0\n1 1 -1\n1 1 1\n5 5 1\n3 0 1 2\n3 3 4 5\n");
+    json_t *object = run_json("check-manifold through.off --json --self-intersections", 0);
+    assert_int_equal(json_integer_value(json_object_get(object, "self_intersections")), 1);
+    json_t *defect = json_array_get(json_object_get(object, "defects"), 0);
+    assert_string_equal(json_string_value(json_object_get(defect, "kind")), "self_intersections");
+    json_t *faces = json_object_get(defect, "faces");
+    assert_int_equal(json_array_size(faces), 2);
+    assert_int_equal(json_integer_value(json_array_get(faces, 0)), 0);
+    assert_int_equal(json_integer_value(json_array_get(faces, 1)), 1);
+    json_decref(object);
+    object = run_json("check-manifold through.off --json --watertight", 1);
+    assert_int_equal(json_integer_value(json_object_get(object, "self_intersections")), 1);
+    json_decref(object);
+    object = run_json("check-manifold bowtie.off --json --self-intersections", 1);
+    assert_true(json_is_integer(json_object_get(object, "self_intersections")));
+    assert_int_equal(json_integer_value(json_object_get(object, "self_intersections")), 0);
+    json_decref(object);
+}
+
+/* 15 triangles through one line intersect each with each: 105 pairs, of which 100 are listed unless all are wanted. */
+static void a_hundred_self_intersections_are_listed(void **state)
+{
+    (void)state;
+    char text[4096] = "OFF\n45 15 0\n";
+    for (int i = 0; i < 15; i++) {
+        sprintf(text + strlen(text), "-9 0 %d\n9 0 %d\n0 %d 0\n", 7 - i, i - 7, 1 + i);
+    }
+    for (int i = 0; i < 15; i++) {
+        sprintf(text + strlen(text), "3 %d %d %d\n", 3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    write_file("star.off", text);
+    static const char *const calls[] = {"check-manifold star.off --json --self-intersections",
+                                        "check-manifold star.off --json --self-intersections --all-defects"};
+    for (size_t i = 0; i < 2; i++) {
+        json_t *object = run_json(calls[i], 0);
+        assert_int_equal(json_integer_value(json_object_get(object, "self_intersections")), 105);
+        json_t *defects = json_object_get(object, "defects");
+        size_t listed = 0;
+        for (size_t d = 0; d < json_array_size(defects); d++) {
+            const char *kind = json_string_value(json_object_get(json_array_get(defects, d), "kind"));
+            listed += strcmp(kind, "self_intersections") == 0;
+        }
+        assert_int_equal(listed, i == 0 ? 100 : 105);
+        json_decref(object);
+    }
+}
+
 static void the_check_has_the_keys_of_the_contract(void **state)
 {
     (void)state;
@@ -308,6 +358,8 @@ static void a_name_that_is_no_text_stays_json(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(self_intersections_are_counted_and_listed_when_asked_for),
+        cmocka_unit_test(a_hundred_self_intersections_are_listed),
         cmocka_unit_test(the_check_has_the_keys_of_the_contract),
         cmocka_unit_test(answers_that_have_no_meaning_are_null),
         cmocka_unit_test(defects_are_the_first_hundred_of_each_kind),

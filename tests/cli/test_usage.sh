@@ -78,12 +78,6 @@ run 2 generate cuube -o "$folder/x.off"
 says "did you mean cube?"
 run 2 generate cube -o "$folder/x.off" --resolution 0
 
-# Options of later versions are refused, with a sentence.
-run 2 check-manifold "$folder/cube.off" --self-intersections
-says "does not search for self-intersections"
-run 2 check-manifold "$folder/cube.off" --watertight
-says "does not search for self-intersections"
-
 # An unknown output format fails before the input is read: the input does not even exist.
 run 2 convert "$folder/none.off" "$folder/x.dwg"
 says "dwg"

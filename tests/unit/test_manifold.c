@@ -5,6 +5,7 @@
 #include "tests/support/unit.h"
 
 #include <meshtool/edge_pairs.h>
+#include <meshtool/self_intersection.h>
 
 #include <float.h>
 #include <math.h>
@@ -47,6 +48,8 @@ static bool reference_agrees(const mt_mesh *mesh, const mt_defect *defect)
     case MT_DEFECT_ZERO_AREA_FACE:
         return defect->face_count >= 1 &&
                test_face_is_defect(mesh, defect->kind, defect->faces[defect->face_count - 1]);
+    case MT_DEFECT_SELF_INTERSECTION: /* not asked for where the reference is */
+        return false;
     default:
         return defect->vertex_count == 2 &&
                test_edge_is_defect(mesh, defect->kind, defect->vertices[0], defect->vertices[1]);
@@ -465,6 +468,58 @@ static void extremes_are_fast(void **state)
     test_context_end(context);
 }
 
+/* The pairs that the search finds, with the vertices that both faces name. */
+static void expect_pairs_listed(const mt_mesh *mesh, const mt_manifold_report *report,
+                                const mt_self_intersections *found)
+{
+    assert_true(report->has_self_intersections);
+    assert_int_equal(report->defect_counts[MT_DEFECT_SELF_INTERSECTION], found->pair_count);
+    uint64_t at = 0;
+    for (size_t i = 0; i < report->defect_list_count; i++) {
+        const mt_defect *defect = &report->defects[i];
+        if (defect->kind != MT_DEFECT_SELF_INTERSECTION) {
+            continue;
+        }
+        assert_int_equal(defect->face_count, 2);
+        assert_int_equal(defect->faces[0], found->pairs[at].a);
+        assert_int_equal(defect->faces[1], found->pairs[at++].b);
+        for (mt_index v = 0; v < defect->vertex_count; v++) {
+            for (int side = 0; side < 2; side++) {
+                mt_index c = mt_mesh_face_begin(mesh, defect->faces[side]);
+                while (c < mt_mesh_face_end(mesh, defect->faces[side]) &&
+                       mesh->corner_vertices[c] != defect->vertices[v]) {
+                    c++;
+                }
+                assert_true(c < mt_mesh_face_end(mesh, defect->faces[side]));
+            }
+        }
+    }
+    assert_int_equal(at, found->pair_count);
+}
+
+static void self_intersections_are_listed_when_asked_for(void **state)
+{
+    (void)state;
+    test_random random = {815};
+    uint64_t total = 0;
+    for (int i = 0; i < 500; i++) {
+        mt_context *context = test_context();
+        mt_mesh *mesh = test_soup(context, &random);
+        mt_self_intersections found;
+        assert_int_equal(mt_find_self_intersections(context, mesh, NULL, &found), MT_OK);
+        mt_manifold_options options = {.defects_per_kind = UINT64_MAX, .self_intersections = true};
+        mt_manifold_report report;
+        assert_int_equal(mt_check_manifold(context, mesh, &options, &report), MT_OK);
+        expect_pairs_listed(mesh, &report, &found);
+        total += found.pair_count;
+        mt_manifold_report_release(context, &report);
+        mt_self_intersections_release(context, &found);
+        mt_mesh_destroy(context, mesh);
+        test_context_end(context);
+    }
+    assert_true(total > 500);
+}
+
 static void every_failed_allocation_is_clean(void **state)
 {
     (void)state;
@@ -474,8 +529,9 @@ static void every_failed_allocation_is_clean(void **state)
         mt_mesh *mesh = test_soup(maker, &random);
         mt_context_options options = {.failing_allocation = nth};
         mt_context *context = mt_context_create(&options);
+        mt_manifold_options how = {.self_intersections = nth % 2 == 0};
         mt_manifold_report report;
-        mt_status status = mt_check_manifold(context, mesh, NULL, &report);
+        mt_status status = mt_check_manifold(context, mesh, &how, &report);
         assert_true(status == MT_OK || status == MT_ERROR_OUT_OF_MEMORY);
         assert_int_equal(mt_context_error(context)->status, status);
         if (status != MT_OK) {
@@ -500,6 +556,7 @@ int main(void)
         cmocka_unit_test(zero_area_is_decided_exactly),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(extremes_are_fast),
+        cmocka_unit_test(self_intersections_are_listed_when_asked_for),
         cmocka_unit_test(every_failed_allocation_is_clean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

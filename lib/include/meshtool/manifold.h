@@ -23,6 +23,7 @@ typedef enum mt_defect_kind {
     MT_DEFECT_NON_MANIFOLD_VERTEX,
     MT_DEFECT_MISORIENTED_EDGE,
     MT_DEFECT_ZERO_AREA_FACE,
+    MT_DEFECT_SELF_INTERSECTION, /* a pair of faces */
     MT_DEFECT_ISOLATED_VERTEX,
     MT_DEFECT_BOUNDARY_EDGE, /* a hole is a defect only to who wants a closed mesh */
     MT_DEFECT_KIND_COUNT
@@ -43,6 +44,7 @@ typedef struct mt_defect {
 /* All zeros means the defaults. */
 typedef struct mt_manifold_options {
     uint64_t defects_per_kind; /* how many of each kind are listed; 0: 100; UINT64_MAX: all */
+    bool self_intersections;   /* search for them; many times the cost of all the rest */
 } mt_manifold_options;
 
 /* Each count is defined in the table of the command line's contract (README, check-manifold). */
@@ -61,7 +63,8 @@ typedef struct mt_manifold_report {
     int64_t genus; /* may be wrong only if has_genus is false */
     double area;   /* of the shared triangulation, finite vertices only */
     bool has_volume;
-    double volume; /* signed */
+    double volume;               /* signed */
+    bool has_self_intersections; /* whether they were searched for */
     size_t defect_list_count;
     mt_defect *defects; /* by kind, in the order of their elements */
     void *storage;      /* memory of the lists */
