@@ -32,7 +32,7 @@ static int count_numbers(const uint8_t *at, const uint8_t *end, bool whole)
     int count = 0;
     while (at < end && *at != '#') {
         const uint8_t *begin = at;
-        while (at < end && (mt_is_digit((char)*at) || (!whole && memchr("+-.eE", *at, 5)))) {
+        while (at < end && (mt_is_digit((char)*at) || (!whole && (*at && strchr("+-.eE", *at))))) {
             at++;
         }
         if (at == begin || (at < end && !mt_is_blank((char)*at))) {

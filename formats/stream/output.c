@@ -161,7 +161,7 @@ static int open_unnamed(mt_output *output)
     const char *slash = strrchr(output->target, '/');
     size_t length = slash ? (size_t)(slash - output->target) + 1 : 0;
     memcpy(output->temporary, output->target, length);
-    strcpy(output->temporary + length, ".");
+    memcpy(output->temporary + length, ".", 2);
     return open(output->temporary, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
 }
 

@@ -67,7 +67,7 @@ static void test_content_wins_over_the_name(void **state)
     check_read("a.obj", OFF, NULL, "off",
                "a.obj: the content is OFF although the name says Wavefront OBJ; read as OFF\n");
     /* Counts without the word OFF are too little to go by alone. */
-    check_read("a.off", OFF + 4, NULL, "off", "");
+    check_read("a.off", &OFF[4], NULL, "off", "");
     check_read("a.dat", OBJ, "OBJ", "obj", "");
 }
 
