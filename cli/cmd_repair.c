@@ -1,0 +1,223 @@
+/* meshtool repair: mending step by step, each asked for, each accounted for. */
+#include "files.h"
+#include "line.h"
+#include "message.h"
+#include "quantity.h"
+
+#include <meshtool/manifold.h>
+#include <meshtool/repair.h>
+
+typedef struct repair_settings {
+    cli_common common;
+    bool steps[MT_REPAIR_STEP_COUNT];
+    bool all;
+    double tolerance;
+} repair_settings;
+
+#define STEP(step) .offset = offsetof(repair_settings, steps) + (step) * sizeof(bool)
+
+static const cli_option options[] = {
+    {.name = "weld", STEP(MT_REPAIR_WELD), .help = "make vertices at exactly the same place one"},
+    {.name = "tolerance",
+     .offset = offsetof(repair_settings, tolerance),
+     .parse = cli_parse_number,
+     .argument = "DISTANCE",
+     .expects = "a distance above 0, in the mesh's units",
+     .minimum = 0x1p-1074,
+     .maximum = 0x1p1023,
+     .help = "weld vertices up to this far apart (implies --weld)"},
+    {.name = "drop-degenerate",
+     STEP(MT_REPAIR_DROP_DEGENERATE),
+     .help = "drop faces that name a vertex twice or have no area"},
+    {.name = "drop-duplicates", STEP(MT_REPAIR_DROP_DUPLICATES), .help = "drop faces that repeat an earlier one"},
+    {.name = "split",
+     STEP(MT_REPAIR_SPLIT),
+     .help = "copy vertices until every edge has two faces at most and every vertex one fan"},
+    {.name = "orient", STEP(MT_REPAIR_ORIENT), .help = "turn faces alike, closed parts outwards"},
+    {.name = "fill-holes", STEP(MT_REPAIR_FILL_HOLES), .help = "close boundary loops with triangles"},
+    {.name = "drop-isolated", STEP(MT_REPAIR_DROP_ISOLATED), .help = "drop vertices that no face, wire or point uses"},
+    {.name = "all", .offset = offsetof(repair_settings, all), .help = "all of these, welding exactly"},
+    {0},
+};
+
+/* What a step changes, for people: "turned 3 faces"; and what it had to leave. */
+static const struct {
+    const char *verb, *noun, *rest, *left_noun, *left_rest;
+} words[MT_REPAIR_STEP_COUNT] = {
+    [MT_REPAIR_WELD] = {"welded away", "vertex", "", NULL, NULL},
+    [MT_REPAIR_DROP_DEGENERATE] = {"dropped", "face", " without area", NULL, NULL},
+    [MT_REPAIR_DROP_DUPLICATES] = {"dropped", "duplicate face", "", NULL, NULL},
+    [MT_REPAIR_SPLIT] = {"added", "vertex", " where surfaces were joined that should not be", NULL, NULL},
+    [MT_REPAIR_ORIENT] = {"turned", "face", "", "component", " cannot be oriented, whichever way faces are turned"},
+    [MT_REPAIR_FILL_HOLES] = {"filled", "hole", "", "boundary loop",
+                              " stay open: triangles there would be a new defect"},
+    [MT_REPAIR_DROP_ISOLATED] = {"dropped", "isolated vertex", "", NULL, NULL},
+};
+
+static void print_step(mt_repair_step step, const mt_repair_result *result)
+{
+    printf("  %-16s %s %s%s\n", mt_repair_step_option(step), words[step].verb,
+           cli_counted(result->count, words[step].noun).text, words[step].rest);
+    if (result->left_count) {
+        printf("  %-16s %s%s\n", "", cli_counted(result->left_count, words[step].left_noun).text,
+               words[step].left_rest);
+    }
+}
+
+static void print_remaining(const mt_manifold_report *after)
+{
+    static const char *const classes[] = {"manifold", "manifold with boundary", "not manifold"};
+    printf("Now it is %s", classes[after->manifold_class]);
+    cli_line line = {0};
+    size_t kinds = 0, index = 0;
+    for (int kind = 0; kind < MT_DEFECT_KIND_COUNT; kind++) {
+        kinds += after->defect_counts[kind] != 0;
+    }
+    for (int kind = 0; kind < MT_DEFECT_KIND_COUNT; kind++) {
+        if (after->defect_counts[kind]) {
+            cli_line_add_item(&line, index++, kinds,
+                              cli_counted(after->defect_counts[kind], mt_defect_words(kind)).text);
+        }
+    }
+    printf(kinds ? "; there remain %s.\n" : ".%s\n", line.text);
+}
+
+static void print_text(const cli_job *job, const mt_repair_report *report, const mt_manifold_report *after)
+{
+    printf("%s:\n", job->operands[0]);
+    for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
+        if (report->results[step].asked) {
+            print_step(step, &report->results[step]);
+        }
+    }
+    print_remaining(after);
+}
+
+static json_t *numbers_json(const mt_index *numbers, uint64_t count)
+{
+    json_t *array = cli_json_array();
+    for (uint64_t i = 0; i < count; i++) {
+        cli_json_append(array, cli_json_integer(numbers[i]));
+    }
+    return array;
+}
+
+static json_t *result_json(const mt_repair_result *result)
+{
+    json_t *object = cli_json_object();
+    cli_json_set(object, "count", cli_json_integer((int64_t)result->count));
+    cli_json_set(object, "faces", numbers_json(result->faces, result->face_count));
+    cli_json_set(object, "vertices", numbers_json(result->vertices, result->vertex_count));
+    cli_json_set(object, "left", cli_json_integer((int64_t)result->left_count));
+    return object;
+}
+
+static void print_json(const cli_job *job, const mt_repair_report *report, const mt_manifold_report *after,
+                       json_t *lost)
+{
+    static const char *const classes[] = {"manifold", "manifold-with-boundary", "non-manifold"};
+    json_t *object = cli_json_object();
+    cli_json_set(object, "file", cli_json_text(job->operands[0]));
+    cli_json_set(object, "output", cli_json_text(job->common->output));
+    for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
+        if (report->results[step].asked) {
+            cli_json_set(object, mt_repair_step_key(step), result_json(&report->results[step]));
+        }
+    }
+    cli_json_set(object, "class", cli_json_text(classes[after->manifold_class]));
+    cli_json_set(object, "lost", lost);
+    cli_json_print_line(object);
+    json_decref(object);
+}
+
+static cli_exit write_and_tell(const cli_job *job, const mt_mesh *mesh, const mt_repair_report *report)
+{
+    mt_manifold_report after;
+    if (mt_check_manifold(job->context, mesh, NULL, &after) != MT_OK) {
+        return cli_report_failure(job, job->operands[0]);
+    }
+    json_t *lost = NULL;
+    cli_exit code = cli_write_mesh(job, mesh, job->common->output, &lost);
+    if (code == CLI_EXIT_DONE && job->common->json) {
+        print_json(job, report, &after, json_incref(lost));
+    } else if (code == CLI_EXIT_DONE && !job->common->quiet && !cli_is_standard_output(job->common->output)) {
+        print_text(job, report, &after);
+    }
+    json_decref(lost);
+    mt_manifold_report_release(job->context, &after);
+    return code;
+}
+
+static mt_repair_options choose_steps(const repair_settings *settings)
+{
+    mt_repair_options chosen = {.weld_tolerance = settings->tolerance};
+    for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
+        chosen.steps[step] = settings->steps[step] || settings->all;
+    }
+    chosen.steps[MT_REPAIR_WELD] = chosen.steps[MT_REPAIR_WELD] || settings->tolerance > 0;
+    return chosen;
+}
+
+static bool asks_for_nothing(const mt_repair_options *chosen)
+{
+    for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
+        if (chosen->steps[step]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static cli_exit mend(const cli_job *job, const mt_mesh *mesh, const mt_repair_options *chosen)
+{
+    mt_repair_report report;
+    mt_mesh *mended = NULL;
+    if (mt_repair(job->context, mesh, chosen, &report, &mended) != MT_OK) {
+        return cli_report_failure(job, job->operands[0]);
+    }
+    cli_exit code = write_and_tell(job, mended, &report);
+    mt_repair_report_release(job->context, &report);
+    mt_mesh_destroy(job->context, mended);
+    return code;
+}
+
+static cli_exit run(const cli_job *job)
+{
+    mt_repair_options chosen = choose_steps(job->settings);
+    if (asks_for_nothing(&chosen)) {
+        return cli_wrong_usage(job->command, "no repair is asked for; --all does them all");
+    }
+    const mt_mesh_format *read = NULL, *written = NULL;
+    cli_exit code = cli_check_inputs(job);
+    if (code == CLI_EXIT_DONE) {
+        code = cli_check_mesh_output(job, job->common->output, &written);
+    }
+    mt_mesh *mesh = NULL;
+    if (code == CLI_EXIT_DONE) {
+        code = cli_read_mesh(job, job->operands[0], &mesh, &read);
+    }
+    if (code == CLI_EXIT_DONE) {
+        code = mend(job, mesh, &chosen);
+    }
+    mt_mesh_destroy(job->context, mesh);
+    return code;
+}
+
+const cli_command cli_repair_command = {
+    .name = "repair",
+    .usage = "IN -o OUT --all",
+    .summary = "Mend a mesh: weld, drop, split, orient, fill",
+    .description =
+        "Does only what is asked for, in the order of the options below, and says what each step changed. With "
+        "--json the faces and vertices are named by their numbers in IN (from 0); what a step added has its "
+        "number in OUT.",
+    .examples = "  meshtool repair scan.obj -o clean.obj --all\n"
+                "  meshtool repair part.stl -o part.ply --weld --tolerance 0.001 --orient\n",
+    .options = options,
+    .groups = CLI_GROUP_OUTPUT | CLI_GROUP_WRITE | CLI_GROUP_MESH | CLI_GROUP_READ | CLI_GROUP_PRECISION |
+              CLI_GROUP_WORK | CLI_GROUP_EVERY,
+    .settings_size = sizeof(repair_settings),
+    .operand_minimum = 1,
+    .operand_maximum = 1,
+    .run = run,
+};
