@@ -44,24 +44,26 @@ static const cli_option options[] = {
 static const struct {
     const char *verb, *noun, *rest, *left_noun, *left_rest;
 } words[MT_REPAIR_STEP_COUNT] = {
-    [MT_REPAIR_WELD] = {"welded away", "vertex", "", NULL, NULL},
-    [MT_REPAIR_DROP_DEGENERATE] = {"dropped", "face", " without area", NULL, NULL},
-    [MT_REPAIR_DROP_DUPLICATES] = {"dropped", "duplicate face", "", NULL, NULL},
-    [MT_REPAIR_SPLIT] = {"added", "vertex", " where surfaces were joined that should not be", NULL, NULL},
-    [MT_REPAIR_ORIENT] = {"turned", "face", "", "component", " cannot be oriented, whichever way faces are turned"},
-    [MT_REPAIR_FILL_HOLES] = {"filled", "hole", "", "boundary loop",
-                              " stay open: triangles there would be a new defect"},
-    [MT_REPAIR_DROP_ISOLATED] = {"dropped", "isolated vertex", "", NULL, NULL},
+    [MT_REPAIR_WELD] = {"joined", "vertex", " to others at the same place", "", ""},
+    [MT_REPAIR_DROP_DEGENERATE] = {"dropped", "face", " without area", "", ""},
+    [MT_REPAIR_DROP_DUPLICATES] = {"dropped", "duplicate face", "", "", ""},
+    [MT_REPAIR_SPLIT] = {"added", "vertex", " where surfaces were joined that should not be", "", ""},
+    [MT_REPAIR_ORIENT] = {"turned", "face", "", "component", " as it was: no turning of faces orients it"},
+    [MT_REPAIR_FILL_HOLES] = {"filled", "hole", "", "boundary loop", " open: triangles there would be a new defect"},
+    [MT_REPAIR_DROP_ISOLATED] = {"dropped", "isolated vertex", "", "", ""},
 };
 
-static void print_step(mt_repair_step step, const mt_repair_result *result)
+static bool print_step(mt_repair_step step, const mt_repair_result *result)
 {
-    printf("  %-16s %s %s%s\n", mt_repair_step_option(step), words[step].verb,
-           cli_counted(result->count, words[step].noun).text, words[step].rest);
-    if (result->left_count) {
-        printf("  %-16s %s%s\n", "", cli_counted(result->left_count, words[step].left_noun).text,
-               words[step].left_rest);
+    if (result->count) {
+        printf("  %-16s %s %s%s\n", mt_repair_step_option(step), words[step].verb,
+               cli_counted(result->count, words[step].noun).text, words[step].rest);
     }
+    if (result->left_count) {
+        printf("  %-16s left %s%s\n", mt_repair_step_option(step),
+               cli_counted(result->left_count, words[step].left_noun).text, words[step].left_rest);
+    }
+    return result->count || result->left_count;
 }
 
 static void print_remaining(const mt_manifold_report *after)
@@ -84,11 +86,13 @@ static void print_remaining(const mt_manifold_report *after)
 
 static void print_text(const cli_job *job, const mt_repair_report *report, const mt_manifold_report *after)
 {
+    bool changed = false;
     printf("%s:\n", job->operands[0]);
     for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
-        if (report->results[step].asked) {
-            print_step(step, &report->results[step]);
-        }
+        changed = print_step(step, &report->results[step]) || changed;
+    }
+    if (!changed) {
+        puts("  nothing to mend");
     }
     print_remaining(after);
 }

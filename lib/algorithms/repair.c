@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#define ROUND_COUNT_MAXIMUM 16 /* two are usual: one that mends, one that finds nothing more */
+
 typedef struct step_record {
     const char *key;
     const char *option;
@@ -51,6 +53,63 @@ static mt_status run_steps(repair_state *state, const mt_repair_options *options
     return MT_OK;
 }
 
+static bool same_block(const void *a, const void *b, size_t size)
+{
+    return (a == NULL) == (b == NULL) && (!a || memcmp(a, b, size) == 0);
+}
+
+static bool same_mesh(const mt_mesh *a, const mt_mesh *b)
+{
+    return a->vertex_count == b->vertex_count && a->face_count == b->face_count && a->corner_count == b->corner_count &&
+           a->face_size == b->face_size &&
+           same_block(a->positions, b->positions, 3 * (size_t)a->vertex_count * mt_type_size(a->position_type)) &&
+           same_block(a->face_offsets, b->face_offsets, ((size_t)a->face_count + 1) * sizeof(mt_index)) &&
+           same_block(a->corner_vertices, b->corner_vertices, a->corner_count * sizeof(mt_index));
+}
+
+/* Adds what a round did to the account; what it left replaces what the round before left. */
+static mt_status add_round(mt_context *context, const mt_repair_report *round, bool changed, mt_repair_report *total)
+{
+    mt_status status = MT_OK;
+    for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
+        const mt_repair_result *from = &round->results[step];
+        mt_repair_result *to = &total->results[step];
+        to->asked = from->asked;
+        to->left_count = from->left_count;
+        to->count += changed ? from->count : 0;
+        for (uint64_t i = 0; changed && status == MT_OK && i < from->face_count; i++) {
+            status = mt_repair_note_face(context, to, from->faces[i]);
+        }
+        for (uint64_t i = 0; changed && status == MT_OK && i < from->vertex_count; i++) {
+            status = mt_repair_note_vertex(context, to, from->vertices[i]);
+        }
+    }
+    return status;
+}
+
+/* One round, and whether another is due: welding takes back what splitting did, so where both are asked for the rounds
+ * go on until one gives the mesh that it was given. */
+static mt_status run_round(repair_state *state, const mt_repair_options *options, mt_repair_report *total, bool *again)
+{
+    mt_context *context = state->context;
+    bool undoes_itself = options->steps[MT_REPAIR_WELD] && options->steps[MT_REPAIR_SPLIT];
+    mt_repair_report round = {0};
+    mt_mesh *before = NULL;
+    mt_status status = undoes_itself ? mt_mesh_copy(context, state->mesh, &before) : MT_OK;
+    if (status == MT_OK) {
+        status = run_steps(state, options, &round);
+    }
+    if (status == MT_OK) {
+        mt_mesh_compact_faces(context, state->mesh);
+        bool changed = !before || !same_mesh(before, state->mesh);
+        *again = undoes_itself && changed && round.results[MT_REPAIR_SPLIT].count > 0;
+        status = add_round(context, &round, changed, total);
+    }
+    mt_mesh_destroy(context, before);
+    mt_repair_report_release(context, &round);
+    return status;
+}
+
 mt_status mt_repair(mt_context *context, const mt_mesh *mesh, const mt_repair_options *options,
                     mt_repair_report *report, mt_mesh **out)
 {
@@ -62,11 +121,14 @@ mt_status mt_repair(mt_context *context, const mt_mesh *mesh, const mt_repair_op
     }
     repair_state state;
     mt_status status = mt_repair_state_init(context, mesh, &state);
-    if (status == MT_OK) {
-        status = run_steps(&state, options, report);
-    }
+    bool again = true;
     if (status == MT_OK) {
         mt_mesh_compact_faces(context, state.mesh);
+    }
+    for (int round = 0; status == MT_OK && again && round < ROUND_COUNT_MAXIMUM; round++) {
+        status = run_round(&state, options, report, &again);
+    }
+    if (status == MT_OK) {
         *out = state.mesh;
         state.mesh = NULL;
     } else {
