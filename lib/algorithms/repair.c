@@ -87,22 +87,31 @@ static mt_status add_round(mt_context *context, const mt_repair_report *round, b
     return status;
 }
 
-/* One round, and whether another is due: welding takes back what splitting did, so where both are asked for the rounds
- * go on until one gives the mesh that it was given. */
+static int count_asked(const mt_repair_options *options)
+{
+    int count = 0;
+    for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
+        count += options->steps[step];
+    }
+    return count;
+}
+
+/* One round, and whether another is due. A later step can give an earlier one new work: welding joins what splitting
+ * parted, and a component that filling closed may have to be turned outwards. */
 static mt_status run_round(repair_state *state, const mt_repair_options *options, mt_repair_report *total, bool *again)
 {
     mt_context *context = state->context;
-    bool undoes_itself = options->steps[MT_REPAIR_WELD] && options->steps[MT_REPAIR_SPLIT];
     mt_repair_report round = {0};
     mt_mesh *before = NULL;
-    mt_status status = undoes_itself ? mt_mesh_copy(context, state->mesh, &before) : MT_OK;
+    bool has_several = count_asked(options) > 1;
+    mt_status status = has_several ? mt_mesh_copy(context, state->mesh, &before) : MT_OK;
     if (status == MT_OK) {
         status = run_steps(state, options, &round);
     }
     if (status == MT_OK) {
         mt_mesh_compact_faces(context, state->mesh);
         bool changed = !before || !same_mesh(before, state->mesh);
-        *again = undoes_itself && changed && round.results[MT_REPAIR_SPLIT].count > 0;
+        *again = has_several && changed;
         status = add_round(context, &round, changed, total);
     }
     mt_mesh_destroy(context, before);

@@ -48,10 +48,9 @@ typedef struct mt_repair_report {
     mt_repair_result results[MT_REPAIR_STEP_COUNT];
 } mt_repair_report;
 
-/* Mends a copy of the mesh; attributes, labels and all else follow. Where welding and splitting are both asked for, the
- * steps are taken again until they change nothing; so repairing the result with the same options changes nothing.
- * MT_ERROR_ARGUMENT for a tolerance that is negative or not a number. *report is filled on success, and released with
- * mt_repair_report_release. */
+/* Mends a copy of the mesh; attributes, labels and all else follow. Several steps are taken again until they change
+ * nothing, so repairing the result with the same options changes nothing. MT_ERROR_ARGUMENT for a tolerance that is
+ * negative or not a number. *report is filled on success, and released with mt_repair_report_release. */
 mt_status mt_repair(mt_context *context, const mt_mesh *mesh, const mt_repair_options *options,
                     mt_repair_report *report, mt_mesh **out);
 void mt_repair_report_release(mt_context *context, mt_repair_report *report);
