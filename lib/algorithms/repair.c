@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define ROUND_COUNT_MAXIMUM 16 /* two are usual: one that mends, one that finds nothing more */
+#define ROUND_COUNT_MAXIMUM 100 /* two are usual: one that mends, one that finds nothing more */
 
 typedef struct step_record {
     const char *key;
@@ -42,8 +42,7 @@ static mt_status run_steps(repair_state *state, const mt_repair_options *options
         mt_status status = mt_progress(state->context, "repairing", (double)step / MT_REPAIR_STEP_COUNT);
         int part = mt_part_begin(state->context, steps[step].option, "asked for");
         if (status == MT_OK) {
-            status = steps[step].run ? steps[step].run(state, result)
-                                     : mt_repair_weld(state, options->weld_tolerance, result);
+            status = steps[step].run ? steps[step].run(state, result) : mt_repair_weld(state, options, result);
         }
         mt_part_end(state->context, part);
         if (status != MT_OK) {
@@ -96,8 +95,9 @@ static int count_asked(const mt_repair_options *options)
     return count;
 }
 
-/* One round, and whether another is due. A later step can give an earlier one new work: welding joins what splitting
- * parted, and a component that filling closed may have to be turned outwards. */
+/* One round, and whether another is due. A later step can give an earlier one new work: a component that filling closed
+ * may have to be turned outwards, and edges that splitting left with one side may fit others. repair_stitch.c tells why
+ * rounds end. */
 static mt_status run_round(repair_state *state, const mt_repair_options *options, mt_repair_report *total, bool *again)
 {
     mt_context *context = state->context;

@@ -3,11 +3,11 @@
  * A component's faces are turned to agree with its first face, or all others are, whichever turns fewer; a closed one
  * is then turned as a whole where its volume is negative. A component that no turning orients (a Moebius strip) stays
  * as it is and is counted as left. Volumes are summed about the component's own first vertex, with coordinates scaled
- * by a power of two. */
+ * by a power of two, over fans that do not depend on the direction of a face: triangulations may, and two volumes of
+ * one bent component that are both negative would have it turned for ever. */
 #include "lib/algorithms/repair_state.h"
 
 #include <meshtool/components.h>
-#include <meshtool/triangulate.h>
 
 #include <string.h>
 
@@ -48,41 +48,43 @@ static void look_at_edges(orient_job *job)
     }
 }
 
-static void add_volumes(orient_job *job, const mt_triangulation *triangulation, double scale)
+static mt_vec3 relative_position(const mt_mesh *mesh, mt_index corner, double scale, mt_vec3 origin)
 {
-    const mt_mesh *mesh = job->state->mesh;
-    for (mt_index t = 0; t < triangulation->triangle_count; t++) {
-        mt_index face = mt_triangulation_face(triangulation, t);
-        component_facts *facts = &job->facts[job->components->face_component[face]];
-        mt_vec3 p[3];
-        for (mt_index side = 0; side < 3; side++) {
-            mt_index vertex = mesh->corner_vertices[mt_triangulation_corner(triangulation, t, side)];
-            p[side] = mt_vec3_scale(mt_mesh_position(mesh, vertex), scale);
-        }
-        if (!facts->has_face) {
-            facts->has_face = true;
-            facts->origin = p[0];
-        }
-        for (int side = 0; side < 3; side++) {
-            p[side] = mt_vec3_subtract(p[side], facts->origin);
-        }
-        double volume = mt_vec3_dot(p[0], mt_vec3_cross(p[1], p[2]));
-        facts->volume += job->components->face_turned[face] ? -volume : volume;
-    }
+    return mt_vec3_subtract(mt_vec3_scale(mt_mesh_position(mesh, mesh->corner_vertices[corner]), scale), origin);
 }
 
-static mt_status measure_volumes(orient_job *job)
+/* Of the fan about the face's first corner. The fan is run from the end with the lower vertex, so that a face turned
+ * over has the same volume, bit for bit, but for its sign. */
+static double face_volume(const mt_mesh *mesh, mt_index face, double scale, mt_vec3 origin)
 {
-    mt_context *context = job->state->context;
-    mt_bounds bounds = mt_mesh_bounds(job->state->mesh);
-    double largest = fmax(mt_vec3_max_abs(bounds.minimum), mt_vec3_max_abs(bounds.maximum));
-    mt_triangulation triangulation;
-    mt_status status = mt_triangulation_init(context, job->state->mesh, &triangulation);
-    if (status == MT_OK) {
-        add_volumes(job, &triangulation, mt_power_of_two_scale(largest));
-        mt_triangulation_release(context, &triangulation);
+    mt_index begin = mt_mesh_face_begin(mesh, face), sides = mt_mesh_face_sides(mesh, face);
+    const mt_index *vertices = mesh->corner_vertices + begin;
+    bool backwards = vertices[sides - 1] < vertices[1];
+    mt_vec3 apex = relative_position(mesh, begin, scale, origin);
+    mt_vec3 before = relative_position(mesh, begin + (backwards ? sides - 1 : 1), scale, origin);
+    double volume = 0;
+    for (mt_index i = 2; i < sides; i++) {
+        mt_vec3 point = relative_position(mesh, begin + (backwards ? sides - i : i), scale, origin);
+        volume += mt_vec3_dot(apex, mt_vec3_cross(before, point));
+        before = point;
     }
-    return status;
+    return backwards ? -volume : volume;
+}
+
+static void measure_volumes(orient_job *job)
+{
+    const mt_mesh *mesh = job->state->mesh;
+    mt_bounds bounds = mt_mesh_bounds(mesh);
+    double scale = mt_power_of_two_scale(fmax(mt_vec3_max_abs(bounds.minimum), mt_vec3_max_abs(bounds.maximum)));
+    for (mt_index face = 0; face < mesh->face_count; face++) {
+        component_facts *facts = &job->facts[job->components->face_component[face]];
+        if (!facts->has_face) {
+            facts->has_face = true;
+            facts->origin = relative_position(mesh, mt_mesh_face_begin(mesh, face), scale, (mt_vec3){0});
+        }
+        double volume = face_volume(mesh, face, scale, facts->origin);
+        facts->volume += job->components->face_turned[face] ? -volume : volume;
+    }
 }
 
 static void count_faces(orient_job *job)
@@ -156,9 +158,7 @@ static mt_status orient(orient_job *job, mt_repair_result *result)
     if (status == MT_OK) {
         look_at_edges(job);
         count_faces(job);
-        status = measure_volumes(job);
-    }
-    if (status == MT_OK) {
+        measure_volumes(job);
         status = choose_turned(job, turn, result);
     }
     if (status == MT_OK && result->count) {

@@ -25,8 +25,16 @@ mt_status mt_repair_replace(repair_state *state, const mt_derivation *derivation
 /* Drops the faces whose flag is not 0, and notes and counts them. */
 mt_status mt_repair_drop_faces(repair_state *state, const uint8_t *drop, mt_repair_result *result);
 
+/* Makes vertices of the same number one, and notes and counts those that joined an earlier one. */
+mt_status mt_repair_join(repair_state *state, const mt_index *numbers, mt_index distinct_count,
+                         mt_repair_result *result);
+
+/* Gives vertices numbers of their own again where the split would undo joining them. */
+mt_status mt_repair_choose_welds(repair_state *state, const mt_repair_options *options, mt_index *numbers,
+                                 mt_index *distinct_count);
+
 /* The steps, each in a file of its own. */
-mt_status mt_repair_weld(repair_state *state, double tolerance, mt_repair_result *result);
+mt_status mt_repair_weld(repair_state *state, const mt_repair_options *options, mt_repair_result *result);
 mt_status mt_repair_drop_degenerate(repair_state *state, mt_repair_result *result);
 mt_status mt_repair_drop_duplicates(repair_state *state, mt_repair_result *result);
 mt_status mt_repair_split(repair_state *state, mt_repair_result *result);

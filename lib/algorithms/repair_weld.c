@@ -35,19 +35,29 @@ static mt_status note_joined(repair_state *state, const mt_index *numbers, mt_re
     return status;
 }
 
-mt_status mt_repair_weld(repair_state *state, double tolerance, mt_repair_result *result)
+mt_status mt_repair_join(repair_state *state, const mt_index *numbers, mt_index distinct_count,
+                         mt_repair_result *result)
+{
+    mt_status status = note_joined(state, numbers, result);
+    if (status == MT_OK && result->count) {
+        status = mt_mesh_join_vertices(state->context, state->mesh, numbers, distinct_count);
+    }
+    return status;
+}
+
+mt_status mt_repair_weld(repair_state *state, const mt_repair_options *options, mt_repair_result *result)
 {
     mt_index *numbers = mt_allocate_array(state->context, state->mesh->vertex_count, sizeof *numbers);
     if (!numbers) {
         return mt_context_error(state->context)->status;
     }
     mt_index distinct_count = 0;
-    mt_status status = number_vertices(state, tolerance, numbers, &distinct_count);
-    if (status == MT_OK) {
-        status = note_joined(state, numbers, result);
+    mt_status status = number_vertices(state, options->weld_tolerance, numbers, &distinct_count);
+    if (status == MT_OK && options->steps[MT_REPAIR_SPLIT] && distinct_count < state->mesh->vertex_count) {
+        status = mt_repair_choose_welds(state, options, numbers, &distinct_count);
     }
-    if (status == MT_OK && result->count) {
-        status = mt_mesh_join_vertices(state->context, state->mesh, numbers, distinct_count);
+    if (status == MT_OK) {
+        status = mt_repair_join(state, numbers, distinct_count, result);
     }
     mt_free(state->context, numbers);
     return status;

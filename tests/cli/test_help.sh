@@ -6,7 +6,7 @@ list=$out
 run 0 help
 holds "help is --help" test "$out" = "$list"
 commands=$("$meshtool" help --json | grep -o '"name": "[a-z-]*", "usage"' | cut -d'"' -f4)
-for command in check-manifold subdivide preview info convert generate formats help; do
+for command in check-manifold repair subdivide preview info convert generate formats help; do
   case " $(echo $commands) " in *" $command "*) pass ;; *) fail "$command is not in help --json" ;; esac
 done
 for command in $commands; do

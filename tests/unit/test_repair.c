@@ -263,6 +263,36 @@ static void everything_at_once_mends_any_soup_for_good(void **state)
     }
 }
 
+/* The same for any choice of steps, with and without a distance for welding. */
+static void any_steps_twice_are_as_once(void **state)
+{
+    (void)state;
+    test_random random = {7};
+    for (int round = 0; round < 1000; round++) {
+        mt_context *context = test_context_with_threads(1);
+        mt_mesh *mesh = random_soup(context, &random);
+        mt_repair_options options = {.weld_tolerance = (double)test_random_below(&random, 3) / 2};
+        for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
+            options.steps[step] = test_random_below(&random, 3) != 0;
+        }
+        mt_repair_report report, second;
+        mt_mesh *mended = repair_with(context, mesh, options, &report);
+        mt_mesh *again = repair_with(context, mended, options, &second);
+        assert_int_equal(test_mesh_hash(mended), test_mesh_hash(again));
+        for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
+            assert_int_equal(second.results[step].count, 0);
+            assert_int_equal(second.results[step].face_count + second.results[step].vertex_count, 0);
+            assert_int_equal(second.results[step].left_count, report.results[step].left_count);
+        }
+        mt_repair_report_release(context, &second);
+        mt_repair_report_release(context, &report);
+        mt_mesh_destroy(context, again);
+        mt_mesh_destroy(context, mended);
+        mt_mesh_destroy(context, mesh);
+        test_context_end(context);
+    }
+}
+
 static void each_failing_allocation_is_clean(void **state)
 {
     (void)state;
@@ -299,6 +329,7 @@ int main(void)
         cmocka_unit_test(a_concave_planar_hole_keeps_its_area),
         cmocka_unit_test(welding_within_a_distance_joins_the_first),
         cmocka_unit_test(everything_at_once_mends_any_soup_for_good),
+        cmocka_unit_test(any_steps_twice_are_as_once),
         cmocka_unit_test(each_failing_allocation_is_clean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -35,6 +35,7 @@
 
 /* Algorithms */
 #include <meshtool/manifold.h>          /* the check that finds everything */
+#include <meshtool/repair.h>            /* mending, with an account */
 #include <meshtool/self_intersection.h> /* faces that meet where they should not, decided exactly */
 #include <meshtool/subdivide.h>         /* Catmull-Clark */
 

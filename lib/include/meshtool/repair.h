@@ -10,7 +10,8 @@ extern "C" {
 
 /* The steps, in the order in which they are taken: each needs what those before it leave. */
 typedef enum mt_repair_step {
-    MT_REPAIR_WELD,            /* vertices at the same place become one */
+    MT_REPAIR_WELD,            /* vertices at the same place become one; with MT_REPAIR_SPLIT only those of connected
+                                  parts that get fewer boundary sides or faces by it: others would be split again */
     MT_REPAIR_DROP_DEGENERATE, /* faces that name a vertex twice, and faces whose vertices all lie on one line */
     MT_REPAIR_DROP_DUPLICATES, /* faces with the vertices of an earlier face, in the same order or the reverse */
     MT_REPAIR_SPLIT,           /* vertices are copied until no edge has three faces and no vertex two fans */
