@@ -47,9 +47,10 @@ static const struct {
     [MT_REPAIR_WELD] = {"joined", "vertex", " to others at the same place", "", ""},
     [MT_REPAIR_DROP_DEGENERATE] = {"dropped", "face", " without area", "", ""},
     [MT_REPAIR_DROP_DUPLICATES] = {"dropped", "duplicate face", "", "", ""},
-    [MT_REPAIR_SPLIT] = {"added", "vertex", " where surfaces were joined that should not be", "", ""},
-    [MT_REPAIR_ORIENT] = {"turned", "face", "", "component", " as it was: no turning of faces orients it"},
-    [MT_REPAIR_FILL_HOLES] = {"filled", "hole", "", "boundary loop", " open: triangles there would be a new defect"},
+    [MT_REPAIR_SPLIT] = {"added", "vertex", ", to part surfaces that met in an edge or a point", "", ""},
+    [MT_REPAIR_ORIENT] = {"turned", "face", "", "component", " as it was: no turning of faces orients all of it"},
+    [MT_REPAIR_FILL_HOLES] = {"filled", "hole", "", "part",
+                              " of the boundary open: triangles there would be a new defect"},
     [MT_REPAIR_DROP_ISOLATED] = {"dropped", "isolated vertex", "", "", ""},
 };
 
@@ -66,9 +67,33 @@ static bool print_step(mt_repair_step step, const mt_repair_result *result)
     return result->count || result->left_count;
 }
 
+/* "7 misoriented edges (first: edge 12-13)" */
+static cli_line describe_remaining(const mt_manifold_report *after, mt_defect_kind kind)
+{
+    cli_line line = {0};
+    cli_line_add(&line, "%s", cli_counted(after->defect_counts[kind], mt_defect_words(kind)).text);
+    for (size_t i = 0; i < after->defect_list_count; i++) {
+        const mt_defect *defect = &after->defects[i];
+        if (defect->kind != kind) {
+            continue;
+        }
+        bool is_face =
+            kind == MT_DEFECT_DEGENERATE_FACE || kind == MT_DEFECT_DUPLICATE_FACE || kind == MT_DEFECT_ZERO_AREA_FACE;
+        if (is_face && defect->face_count) {
+            cli_line_add(&line, " (first: face %u)", defect->faces[0]);
+        } else if (!is_face && defect->vertex_count == 2) {
+            cli_line_add(&line, " (first: edge %u-%u)", defect->vertices[0], defect->vertices[1]);
+        } else if (!is_face && defect->vertex_count) {
+            cli_line_add(&line, " (first: vertex %u)", defect->vertices[0]);
+        }
+        break;
+    }
+    return line;
+}
+
 static void print_remaining(const mt_manifold_report *after)
 {
-    static const char *const classes[] = {"manifold", "manifold with boundary", "not manifold"};
+    static const char *const classes[] = {"manifold and closed", "manifold with boundary", "not manifold"};
     printf("Now it is %s", classes[after->manifold_class]);
     cli_line line = {0};
     size_t kinds = 0, index = 0;
@@ -77,17 +102,16 @@ static void print_remaining(const mt_manifold_report *after)
     }
     for (int kind = 0; kind < MT_DEFECT_KIND_COUNT; kind++) {
         if (after->defect_counts[kind]) {
-            cli_line_add_item(&line, index++, kinds,
-                              cli_counted(after->defect_counts[kind], mt_defect_words(kind)).text);
+            cli_line_add_item(&line, index++, kinds, describe_remaining(after, (mt_defect_kind)kind).text);
         }
     }
-    printf(kinds ? "; there remain %s.\n" : ".%s\n", line.text);
+    printf(kinds ? ", still with %s.\n" : ".%s\n", line.text);
 }
 
 static void print_text(const cli_job *job, const mt_repair_report *report, const mt_manifold_report *after)
 {
     bool changed = false;
-    printf("%s:\n", job->operands[0]);
+    printf("%s -> %s:\n", job->operands[0], job->common->output);
     for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
         changed = print_step(step, &report->results[step]) || changed;
     }
