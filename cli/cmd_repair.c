@@ -113,7 +113,7 @@ static void print_text(const cli_job *job, const mt_repair_report *report, const
     bool changed = false;
     printf("%s -> %s:\n", job->operands[0], job->common->output);
     for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
-        changed = print_step(step, &report->results[step]) || changed;
+        changed = print_step((mt_repair_step)step, &report->results[step]) || changed;
     }
     if (!changed) {
         puts("  nothing to mend");
@@ -149,7 +149,7 @@ static void print_json(const cli_job *job, const mt_repair_report *report, const
     cli_json_set(object, "output", cli_json_text(job->common->output));
     for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
         if (report->results[step].asked) {
-            cli_json_set(object, mt_repair_step_key(step), result_json(&report->results[step]));
+            cli_json_set(object, mt_repair_step_key((mt_repair_step)step), result_json(&report->results[step]));
         }
     }
     cli_json_set(object, "class", cli_json_text(classes[after->manifold_class]));
