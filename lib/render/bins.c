@@ -32,17 +32,18 @@ static bool is_large(mt_tile_range range)
     return (range.last_x - range.first_x + 1) * (range.last_y - range.first_y + 1) > LARGE_TILE_COUNT;
 }
 
-/* Calls for a primitive of several tiles: adds it to each that it touches, or only counts. */
+/* Adds a primitive of several tiles to each that it touches, or only counts. */
 static void visit_tiles(const bin_task *task, mt_index number, mt_tile_range range, size_t *places, bool fill)
 {
     const mt_binned *binned = task->binned;
     /* In a block of two by two tiles most are touched. */
-    bool test = range.last_x - range.first_x > 1 || range.last_y - range.first_y > 1;
+    bool narrow = range.last_x - range.first_x > 1 && range.last_y > range.first_y;
     for (uint32_t y = range.first_y; y <= range.last_y; y++) {
-        for (uint32_t x = range.first_x; x <= range.last_x; x++) {
-            if (test && !binned->touches(binned->user, number, x, y)) {
-                continue;
-            }
+        mt_tile_range row = range;
+        if (narrow) {
+            binned->narrow(binned->user, number, y, &row);
+        }
+        for (uint32_t x = row.first_x; x <= row.last_x; x++) {
             size_t *place = places + (size_t)y * task->bins->tiles_x + x;
             if (fill) {
                 task->bins->numbers[*place] = number;

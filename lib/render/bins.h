@@ -17,8 +17,9 @@ typedef struct mt_binned {
     const void *user;
     mt_index count;
     mt_tile_range (*range)(const void *user, mt_index number);
-    /* Whether a primitive whose range has several tiles touches this one; may be true too often. */
-    bool (*touches)(const void *user, mt_index number, uint32_t tile_x, uint32_t tile_y);
+    /* Narrows first_x and last_x to the tiles of row tile_y that the primitive touches; may leave too many. Called for
+     * primitives whose range is more than two tiles wide and more than one high. */
+    void (*narrow)(const void *user, mt_index number, uint32_t tile_y, mt_tile_range *row);
 } mt_binned;
 
 typedef struct mt_bins {

@@ -22,12 +22,15 @@ static mt_tile_range primitive_range(const void *user, mt_index number)
                                    : mt_stroke_range(&picture->strokes, number - triangle_count);
 }
 
-static bool primitive_touches(const void *user, mt_index number, uint32_t tile_x, uint32_t tile_y)
+static void primitive_narrow(const void *user, mt_index number, uint32_t tile_y, mt_tile_range *row)
 {
     const mt_picture *picture = (const mt_picture *)user;
     mt_index triangle_count = picture->frame->model->triangulation.triangle_count;
-    return number < triangle_count ? mt_triangle_touches(picture->frame, number, tile_x, tile_y)
-                                   : mt_stroke_touches(&picture->strokes, number - triangle_count, tile_x, tile_y);
+    if (number < triangle_count) {
+        mt_triangle_narrow(picture->frame, number, tile_y, row);
+    } else {
+        mt_stroke_narrow(&picture->strokes, number - triangle_count, tile_y, row);
+    }
 }
 
 static mt_tile_range mark_range(const void *user, mt_index number)
@@ -35,9 +38,9 @@ static mt_tile_range mark_range(const void *user, mt_index number)
     return mt_stroke_range((const mt_stroke_set *)user, number);
 }
 
-static bool mark_touches(const void *user, mt_index number, uint32_t tile_x, uint32_t tile_y)
+static void mark_narrow(const void *user, mt_index number, uint32_t tile_y, mt_tile_range *row)
 {
-    return mt_stroke_touches((const mt_stroke_set *)user, number, tile_x, tile_y);
+    mt_stroke_narrow((const mt_stroke_set *)user, number, tile_y, row);
 }
 
 static mt_status sort(mt_context *context, mt_picture *picture)
@@ -48,10 +51,10 @@ static mt_status sort(mt_context *context, mt_picture *picture)
     }
     const mt_camera *camera = &picture->frame->camera;
     int part = mt_part_begin(context, "tile lists", "triangles, lines and dots sorted by 32 x 32 pixels");
-    mt_binned binned = {picture, (mt_index)count, primitive_range, primitive_touches};
+    mt_binned binned = {picture, (mt_index)count, primitive_range, primitive_narrow};
     mt_status status = mt_bins_init(context, &binned, camera->width, camera->height, &picture->bins);
     if (status == MT_OK) {
-        mt_binned marks = {&picture->marks, picture->marks.count, mark_range, mark_touches};
+        mt_binned marks = {&picture->marks, picture->marks.count, mark_range, mark_narrow};
         status = mt_bins_init(context, &marks, camera->width, camera->height, &picture->mark_bins);
     }
     mt_part_end(context, part);

@@ -30,7 +30,7 @@ typedef struct setup {
     mt_index number;
 } setup;
 
-static inline void prepare(mt_index triangle, const corners *c, setup *s)
+MT_INLINE void prepare(mt_index triangle, const corners *c, setup *s)
 {
     make_edges(c, s->edges);
     s->plane = make_plane(c);
@@ -39,7 +39,7 @@ static inline void prepare(mt_index triangle, const corners *c, setup *s)
     s->number = triangle;
 }
 
-static inline void hold(vector8f *value, float low, float high)
+MT_INLINE void hold(vector8f *value, float low, float high)
 {
     vector8f lows = low - (vector8f){0}, highs = high - (vector8f){0};
     vector8i under = *value<lows, over = *value> highs;
@@ -47,7 +47,7 @@ static inline void hold(vector8f *value, float low, float high)
 }
 
 /* Stores the triangle in the samples of a group that it covers and where it is nearest. */
-static inline void store_group(const setup *s, const vector8i *inside, vector8f *near, float *depths, mt_index *numbers)
+MT_INLINE void store_group(const setup *s, const vector8i *inside, vector8f *near, float *depths, mt_index *numbers)
 {
     if (s->plane.steep) {
         hold(near, s->plane.farthest, s->plane.nearest);
@@ -59,14 +59,14 @@ static inline void store_group(const setup *s, const vector8i *inside, vector8f 
     *old_number = ((int32_t)s->number & wins) | (*old_number & ~wins);
 }
 
-static inline float depth_at(const setup *s, int32_t x, int32_t y)
+MT_INLINE float depth_at(const setup *s, int32_t x, int32_t y)
 {
     double left = (double)x * MT_STEPS, top = (double)y * MT_STEPS;
     return (float)(s->plane.depth + (s->plane.slope_x * (left - s->plane.x) + s->plane.slope_y * (top - s->plane.y)));
 }
 
 /* The least depth of a pixel's samples: nothing farther can be seen there. */
-static inline float floor_of(const float *depths, unsigned group_count)
+MT_INLINE float floor_of(const float *depths, unsigned group_count)
 {
     vector8f least = *(const vector8f *)depths;
     for (unsigned g = 1; g < group_count; g++) {
@@ -87,8 +87,8 @@ typedef struct offsets {
     vector8f edges[3][MAXIMUM_GROUPS], depths[MAXIMUM_GROUPS];
 } offsets;
 
-static inline void draw_small_pixel(mt_tile *tile, const setup *s, const offsets *at, const int32_t e[3],
-                                    unsigned group_count, int32_t x, int32_t y)
+MT_INLINE void draw_small_pixel(mt_tile *tile, const setup *s, const offsets *at, const int32_t e[3],
+                                unsigned group_count, int32_t x, int32_t y)
 {
     size_t pixel = mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y), lane = pixel * tile->lane_count;
     float depth = depth_at(s, x, y);
@@ -106,7 +106,7 @@ static inline void draw_small_pixel(mt_tile *tile, const setup *s, const offsets
 }
 
 /* The box of a small triangle: everything in floats. */
-static inline void draw_small(const mt_frame *frame, mt_tile *tile, const setup *s, pixel_box box, unsigned group_count)
+MT_INLINE void draw_small(const mt_frame *frame, mt_tile *tile, const setup *s, pixel_box box, unsigned group_count)
 {
     const vector8f *xs = (const vector8f *)frame->sample_x, *ys = (const vector8f *)frame->sample_y;
     offsets at;
@@ -140,8 +140,8 @@ static inline void draw_small(const mt_frame *frame, mt_tile *tile, const setup 
 }
 
 /* A pixel of a large triangle; whole: no edge passes through its samples. */
-static inline void draw_large_pixel(const mt_frame *frame, mt_tile *tile, const setup *s, const int64_t e[3],
-                                    bool whole, int32_t x, int32_t y)
+MT_INLINE void draw_large_pixel(const mt_frame *frame, mt_tile *tile, const setup *s, const int64_t e[3], bool whole,
+                                int32_t x, int32_t y)
 {
     const vector8f *xs = (const vector8f *)frame->sample_x, *ys = (const vector8f *)frame->sample_y;
     size_t pixel = mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y), lane = pixel * tile->lane_count;
@@ -163,21 +163,59 @@ static inline void draw_large_pixel(const mt_frame *frame, mt_tile *tile, const 
     tile->floors[pixel] = floor_of(tile->depths + lane, group_count);
 }
 
-static inline void draw_large(const mt_frame *frame, mt_tile *tile, const setup *s, pixel_box box)
+/* How the edge functions of a large triangle change: from a pixel's corner to its samples, and from pixel to pixel. */
+typedef struct slopes {
+    int64_t lowest[3], highest[3];
+    double pixels_per_unit[3]; /* along a row; infinite for a level edge */
+} slopes;
+
+MT_INLINE slopes slopes_of(const mt_frame *frame, const setup *s)
 {
-    int64_t lowest[3], highest[3], first = frame->sample_first, last = frame->sample_last;
+    slopes change;
+    int64_t first = frame->sample_first, last = frame->sample_last;
     for (int i = 0; i < 3; i++) {
         int64_t a = s->edges[i].a, b = s->edges[i].b;
-        lowest[i] = a * (a > 0 ? first : last) + b * (b > 0 ? first : last);
-        highest[i] = a * (a > 0 ? last : first) + b * (b > 0 ? last : first);
+        change.lowest[i] = a * (a > 0 ? first : last) + b * (b > 0 ? first : last);
+        change.highest[i] = a * (a > 0 ? last : first) + b * (b > 0 ? last : first);
+        change.pixels_per_unit[i] = 1.0 / ((double)a * MT_STEPS);
     }
+    return change;
+}
+
+/* Pixels of the row at `top` (in steps) that the edges leave between first and last; one that rounding adds is found
+ * outside by the exact test. */
+MT_INLINE void narrow_row(const setup *s, const slopes *change, int64_t top, int32_t *first, int32_t *last)
+{
+    double low = *first, high = *last;
+    for (int i = 0; i < 3; i++) {
+        double at_zero = (double)(edge_at(&s->edges[i], 0, top) + change->highest[i]);
+        double crossing = -at_zero * change->pixels_per_unit[i];
+        if (s->edges[i].a > 0) {
+            low = crossing > low ? crossing : low;
+        } else if (s->edges[i].a < 0) {
+            high = crossing < high ? crossing : high;
+        }
+    }
+    if (low > high + 1) {
+        *last = *first - 1;
+    } else {
+        *first = low > *first ? (int32_t)low : *first;
+        *last = high < *last ? (int32_t)high + 1 : *last;
+    }
+}
+
+MT_INLINE void draw_large(const mt_frame *frame, mt_tile *tile, const setup *s, pixel_box box)
+{
+    slopes change = slopes_of(frame, s);
     for (int32_t y = box.first_y; y <= box.last_y; y++) {
-        for (int32_t x = box.first_x; x <= box.last_x; x++) {
+        int32_t first = box.first_x, last = box.last_x;
+        narrow_row(s, &change, (int64_t)y * MT_STEPS, &first, &last);
+        for (int32_t x = first; x <= last && x <= box.last_x; x++) {
             int64_t e[3], outside = 0, crossed = 0;
             for (int i = 0; i < 3; i++) {
                 e[i] = edge_at(&s->edges[i], (int64_t)x * MT_STEPS, (int64_t)y * MT_STEPS);
-                outside |= e[i] + highest[i];
-                crossed |= e[i] + lowest[i];
+                outside |= e[i] + change.highest[i];
+                crossed |= e[i] + change.lowest[i];
             }
             if (outside >= 0 && s->plane.nearest > tile->floors[mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y)]) {
                 draw_large_pixel(frame, tile, s, e, crossed >= 0, x, y);
@@ -186,7 +224,7 @@ static inline void draw_large(const mt_frame *frame, mt_tile *tile, const setup 
     }
 }
 
-static inline pixel_box clip(pixel_box box, const mt_tile *tile)
+MT_INLINE pixel_box clip(pixel_box box, const mt_tile *tile)
 {
     int32_t left = (int32_t)tile->x, top = (int32_t)tile->y;
     int32_t right = left + (int32_t)tile->width - 1, bottom = top + (int32_t)tile->height - 1;
@@ -197,7 +235,7 @@ static inline pixel_box clip(pixel_box box, const mt_tile *tile)
     return box;
 }
 
-static inline void prefetch(const mt_frame *frame, const mt_index *triangles, size_t count, size_t i)
+MT_INLINE void prefetch(const mt_frame *frame, const mt_index *triangles, size_t count, size_t i)
 {
     const mt_triangulation *triangulation = &frame->model->triangulation;
     const mt_index *vertices = frame->model->mesh->corner_vertices;
@@ -211,7 +249,7 @@ static inline void prefetch(const mt_frame *frame, const mt_index *triangles, si
 }
 
 /* Whether everything drawn so far hides the triangle. */
-static inline bool is_hidden(const mt_tile *tile, const corners *c, pixel_box box)
+MT_INLINE bool is_hidden(const mt_tile *tile, const corners *c, pixel_box box)
 {
     double near = c->v[0]->depth > c->v[1]->depth ? c->v[0]->depth : c->v[1]->depth;
     float nearest = (float)(c->v[2]->depth > near ? c->v[2]->depth : near);

@@ -6,7 +6,7 @@
 
 /* For mt_bins_init over the triangles; user is the mt_frame. */
 mt_tile_range mt_triangle_range(const mt_frame *frame, mt_index triangle);
-bool mt_triangle_touches(const mt_frame *frame, mt_index triangle, uint32_t tile_x, uint32_t tile_y);
+void mt_triangle_narrow(const mt_frame *frame, mt_index triangle, uint32_t tile_y, mt_tile_range *row);
 
 /* Draws triangles, given in ascending order. A sample on an edge belongs to both sides; the nearest triangle
  * wins, at equal depth the lowest. */

@@ -20,7 +20,7 @@ void mt_facet_cache_clear(mt_facet_cache *cache)
     }
 }
 
-static inline void add(light_sum *sum, mt_vec3 light, double weight)
+MT_INLINE void add(light_sum *sum, mt_vec3 light, double weight)
 {
     sum->light.x += light.x * weight;
     sum->light.y += light.y * weight;
@@ -55,8 +55,8 @@ static mt_vec3 stroke_light(const mt_picture *picture, mt_index number, middle a
 }
 
 /* The light of what `number` stands for, seen through some samples of a pixel. */
-static inline mt_vec3 light_of(const mt_picture *picture, mt_facet_cache *cache, mt_index number, uint64_t samples,
-                               uint32_t x, uint32_t y)
+MT_INLINE mt_vec3 light_of(const mt_picture *picture, mt_facet_cache *cache, mt_index number, uint64_t samples,
+                           uint32_t x, uint32_t y)
 {
     mt_index triangle_count = picture->frame->model->triangulation.triangle_count;
     if (number >= triangle_count) {
@@ -73,7 +73,7 @@ static inline mt_vec3 light_of(const mt_picture *picture, mt_facet_cache *cache,
     return mt_facet_shade(picture->look, facet, at.x, at.y);
 }
 
-static inline double mark_opacity(mt_index mark)
+MT_INLINE double mark_opacity(mt_index mark)
 {
     return mark == MT_NONE ? 0.0 : (mark & 1u) ? HIDDEN_MARK : 1.0;
 }
@@ -89,7 +89,7 @@ static double weight_of(const mt_index *marks, uint64_t samples)
 }
 
 /* A bit for each sample that shows `number`. */
-static inline uint64_t samples_of(const mt_index *numbers, unsigned group_count, mt_index number)
+MT_INLINE uint64_t samples_of(const mt_index *numbers, unsigned group_count, mt_index number)
 {
     const vector8i bits = {1, 2, 4, 8, 16, 32, 64, 128};
     uint64_t samples = 0;
@@ -138,8 +138,8 @@ static void store(const mt_picture *picture, uint32_t x, uint32_t y, light_sum s
 }
 
 /* Returns the number of samples that show the mesh. */
-static inline unsigned resolve_pixel(const mt_picture *picture, const mt_tile *tile, mt_facet_cache *cache, uint32_t x,
-                                     uint32_t y, light_sum *sum)
+MT_INLINE unsigned resolve_pixel(const mt_picture *picture, const mt_tile *tile, mt_facet_cache *cache, uint32_t x,
+                                 uint32_t y, light_sum *sum)
 {
     unsigned count = picture->frame->sample_count, group_count = tile->lane_count / MT_GROUP_SIZE, covered = 0;
     size_t lane = mt_tile_lane(tile, x, y);

@@ -16,7 +16,7 @@ typedef struct segment {
     double depth, depth_along; /* with the set's nearness */
 } segment;
 
-static inline segment segment_of(const mt_stroke_set *set, mt_index number)
+MT_INLINE segment segment_of(const mt_stroke_set *set, mt_index number)
 {
     const mt_screen_vertex *a = &set->frame->vertices[set->strokes[number].a];
     const mt_screen_vertex *b = &set->frame->vertices[set->strokes[number].b];
@@ -35,7 +35,7 @@ typedef struct pixel_box {
     int64_t first_x, first_y, last_x, last_y;
 } pixel_box;
 
-static inline pixel_box box_of(const segment *s)
+MT_INLINE pixel_box box_of(const segment *s)
 {
     pixel_box box;
     box.first_x = (int64_t)floor((s->x + fmin(s->along_x, 0.0) - s->radius) / MT_STEPS);
@@ -58,7 +58,7 @@ mt_tile_range mt_stroke_range(const mt_stroke_set *set, mt_index stroke)
                             set->frame->camera.width, set->frame->camera.height);
 }
 
-static inline double distance_squared(const segment *s, double x, double y)
+MT_INLINE double distance_squared(const segment *s, double x, double y)
 {
     double t = ((x - s->x) * s->along_x + (y - s->y) * s->along_y) * s->per_length_squared;
     t = t > 0 ? (t < 1 ? t : 1.0) : 0.0;
@@ -67,22 +67,36 @@ static inline double distance_squared(const segment *s, double x, double y)
 }
 
 /* Whether a square around (x, y) may reach into the stroke. */
-static inline bool is_near(const segment *s, double x, double y, double side)
+MT_INLINE bool is_near(const segment *s, double x, double y, double side)
 {
     double reach = s->radius + 0.7072 * side;
     return distance_squared(s, x, y) <= reach * reach;
 }
 
-bool mt_stroke_touches(const mt_stroke_set *set, mt_index stroke, uint32_t tile_x, uint32_t tile_y)
+/* The part of a segment that runs within a row of tiles, widened by its radius on all sides. */
+void mt_stroke_narrow(const mt_stroke_set *set, mt_index stroke, uint32_t tile_y, mt_tile_range *row)
 {
     segment s = segment_of(set, stroke);
-    double size = MT_TILE_SIZE * MT_STEPS;
-    return is_near(&s, (tile_x + 0.5) * size, (tile_y + 0.5) * size, size);
+    double size = MT_TILE_SIZE * (double)MT_STEPS, top = tile_y * size - s.radius;
+    double bottom = top + size + 2.0 * s.radius, from = 0, to = 1;
+    if (fabs(s.along_y) > s.radius) {
+        double a = (top - s.y) / s.along_y, b = (bottom - s.y) / s.along_y;
+        from = fmax(0.0, fmin(a, b));
+        to = fmin(1.0, fmax(a, b));
+    }
+    double a = s.x + from * s.along_x, b = s.x + to * s.along_x;
+    double low = (fmin(a, b) - s.radius) / size, high = (fmax(a, b) + s.radius) / size;
+    if (from > to || high < row->first_x || low > row->last_x + 1.0) {
+        *row = (mt_tile_range){1, 1, 0, 0};
+        return;
+    }
+    row->first_x = low > row->first_x ? (uint16_t)low : row->first_x;
+    row->last_x = high < row->last_x ? (uint16_t)high : row->last_x;
 }
 
 /* The samples of a group that the segment covers, and its depth at each. */
-static inline void cover(const segment *s, double left, double top, const vector8f *xs, const vector8f *ys,
-                         vector8i *inside, vector8f *depth)
+MT_INLINE void cover(const segment *s, double left, double top, const vector8f *xs, const vector8f *ys,
+                     vector8i *inside, vector8f *depth)
 {
     vector8d x = left + __builtin_convertvector(*xs, vector8d), y = top + __builtin_convertvector(*ys, vector8d);
     vector8d t = ((x - s->x) * s->along_x + (y - s->y) * s->along_y) * s->per_length_squared;
@@ -94,8 +108,8 @@ static inline void cover(const segment *s, double left, double top, const vector
     *inside = __builtin_convertvector(dx * dx + dy * dy <= s->radius * s->radius, vector8i);
 }
 
-static inline void draw_pixel(const mt_frame *frame, const segment *s, double left, double top, int32_t number,
-                              float *depths, mt_index *numbers)
+MT_INLINE void draw_pixel(const mt_frame *frame, const segment *s, double left, double top, int32_t number,
+                          float *depths, mt_index *numbers)
 {
     const vector8f *xs = (const vector8f *)frame->sample_x, *ys = (const vector8f *)frame->sample_y;
     for (unsigned g = 0; g < frame->lane_count / MT_GROUP_SIZE; g++) {
@@ -110,8 +124,8 @@ static inline void draw_pixel(const mt_frame *frame, const segment *s, double le
     }
 }
 
-static inline void mark_pixel(const mt_frame *frame, const segment *s, double left, double top, int32_t number,
-                              const float *depths, mt_index *marks)
+MT_INLINE void mark_pixel(const mt_frame *frame, const segment *s, double left, double top, int32_t number,
+                          const float *depths, mt_index *marks)
 {
     const vector8f *xs = (const vector8f *)frame->sample_x, *ys = (const vector8f *)frame->sample_y;
     for (unsigned g = 0; g < frame->lane_count / MT_GROUP_SIZE; g++) {
@@ -129,7 +143,7 @@ static inline void mark_pixel(const mt_frame *frame, const segment *s, double le
 }
 
 /* The part of a stroke's box that lies in the tile. */
-static inline pixel_box clip(pixel_box box, const mt_tile *tile)
+MT_INLINE pixel_box clip(pixel_box box, const mt_tile *tile)
 {
     int64_t right = (int64_t)tile->x + tile->width - 1, bottom = (int64_t)tile->y + tile->height - 1;
     box.first_x = box.first_x > tile->x ? box.first_x : tile->x;
@@ -139,7 +153,7 @@ static inline pixel_box clip(pixel_box box, const mt_tile *tile)
     return box;
 }
 
-static inline void draw_stroke(const mt_stroke_set *set, mt_tile *tile, mt_index stroke, int32_t number, bool mark)
+MT_INLINE void draw_stroke(const mt_stroke_set *set, mt_tile *tile, mt_index stroke, int32_t number, bool mark)
 {
     const mt_frame *frame = set->frame;
     segment s = segment_of(set, stroke);

@@ -15,7 +15,7 @@ typedef struct mt_stroke_set {
 
 /* For mt_bins_init. */
 mt_tile_range mt_stroke_range(const mt_stroke_set *set, mt_index stroke);
-bool mt_stroke_touches(const mt_stroke_set *set, mt_index stroke, uint32_t tile_x, uint32_t tile_y);
+void mt_stroke_narrow(const mt_stroke_set *set, mt_index stroke, uint32_t tile_y, mt_tile_range *row);
 
 /* Draws strokes among the triangles, given by their numbers in the tile: first_number + their own. */
 void mt_draw_strokes(const mt_stroke_set *set, mt_tile *tile, const mt_index *numbers, size_t count,

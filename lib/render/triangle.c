@@ -22,16 +22,30 @@ mt_tile_range mt_triangle_range(const mt_frame *frame, mt_index triangle)
                             frame->camera.height);
 }
 
-bool mt_triangle_touches(const mt_frame *frame, mt_index triangle, uint32_t tile_x, uint32_t tile_y)
+void mt_triangle_narrow(const mt_frame *frame, mt_index triangle, uint32_t tile_y, mt_tile_range *row)
 {
     corners c = load_corners(frame, triangle);
     edge edges[3];
     make_edges(&c, edges);
+    double size = MT_TILE_SIZE * (double)MT_STEPS, low = row->first_x, high = row->last_x + 1.0;
     for (int i = 0; i < 3; i++) {
-        int64_t x = tile_x + (edges[i].a > 0), y = tile_y + (edges[i].b > 0);
-        if (edge_at(&edges[i], x * MT_TILE_SIZE * MT_STEPS, y * MT_TILE_SIZE * MT_STEPS) < 0) {
-            return false;
+        /* The edge function is largest at the bottom or the top of the row; from there, where it is 0. */
+        double y = (tile_y + (edges[i].b > 0)) * size;
+        double at_zero = edges[i].b * (y - edges[i].y) - (double)edges[i].a * edges[i].x;
+        double crossing = -at_zero / (edges[i].a * size);
+        if (edges[i].a > 0) {
+            low = crossing > low ? crossing : low;
+        } else if (edges[i].a < 0) {
+            high = crossing < high ? crossing : high;
         }
     }
-    return true;
+    /* Rounding is far below a pixel, and a tile more does no harm. */
+    low -= 1.0 / MT_TILE_SIZE;
+    high += 1.0 / MT_TILE_SIZE;
+    if (low > high) {
+        *row = (mt_tile_range){1, 1, 0, 0};
+        return;
+    }
+    row->first_x = low > row->first_x ? (uint16_t)low : row->first_x;
+    row->last_x = high < row->last_x ? (uint16_t)high : row->last_x;
 }

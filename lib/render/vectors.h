@@ -20,6 +20,9 @@
 #define MT_CLONES
 #endif
 
+/* For what a cloned function calls: only what is inlined is compiled with it. */
+#define MT_INLINE static inline __attribute__((always_inline))
+
 #include <stdint.h>
 
 /* Samples of a pixel come in groups of 8. */

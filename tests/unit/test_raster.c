@@ -72,8 +72,12 @@ static mt_index *draw(const scene *s, float **depths)
         for (mt_index i = 0; i < triangle_count; i++) {
             mt_tile_range range = mt_triangle_range(&s->frame, i);
             uint32_t x = t % TILES, y = t / TILES;
-            if (range.first_x <= x && x <= range.last_x && range.first_y <= y && y <= range.last_y &&
-                mt_triangle_touches(&s->frame, i, x, y)) {
+            bool listed_here = range.first_x <= x && x <= range.last_x && range.first_y <= y && y <= range.last_y;
+            if (listed_here) {
+                mt_triangle_narrow(&s->frame, i, y, &range);
+                listed_here = range.first_x <= x && x <= range.last_x;
+            }
+            if (listed_here) {
                 all[listed++] = i;
             }
         }
