@@ -35,9 +35,7 @@ static void look_at_edges(orient_job *job)
         component_facts *facts = &job->facts[job->components->face_component[face]];
         for (mt_index corner = mt_mesh_face_begin(mesh, face); corner < mt_mesh_face_end(mesh, face); corner++) {
             mt_edge_class edge = mt_edge_class_of(mesh, job->pairs, corner);
-            if (edge == MT_EDGE_BOUNDARY) {
-                facts->is_open = true;
-            } else if (edge == MT_EDGE_NON_MANIFOLD) {
+            if (edge == MT_EDGE_BOUNDARY || edge == MT_EDGE_NON_MANIFOLD) {
                 facts->is_open = true;
             } else if (edge != MT_EDGE_NONE) {
                 mt_index other = mt_mesh_corner_face(mesh, job->pairs->next_side[corner]);

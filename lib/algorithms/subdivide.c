@@ -299,7 +299,7 @@ static void warn_of_limits(mt_context *context, const mt_mesh *mesh)
     }
     if (mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX) ||
         mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_CORNER)) {
-        mt_warn(context, "normals were interpolated from the coarse mesh's: `meshtool normals` computes those of the "
+        mt_warn(context, "normals were interpolated from the coarse mesh's, and are not quite those of the "
                          "refined surface");
     }
 }
