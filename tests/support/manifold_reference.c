@@ -86,10 +86,18 @@ static void merge(face_sets *sets, mt_index face_count, mt_index f, mt_index g)
     sets->count--;
 }
 
+/* Whether side i of face f touches the vertex, or any vertex, and is an edge of face g too. */
+static bool shares_side(const mt_mesh *mesh, mt_index f, mt_index i, mt_index g, mt_index vertex)
+{
+    mt_index a = vertex_of(mesh, f, i), b = vertex_of(mesh, f, i + 1);
+    return (vertex == MT_NONE || a == vertex || b == vertex) && has_edge(mesh, g, a, b);
+}
+
+/* Whether two faces share an edge at a vertex; MT_NONE: at any. */
 static bool share_edge_at(const mt_mesh *mesh, mt_index f, mt_index g, mt_index vertex)
 {
-    for (mt_index other = 0; other < mesh->vertex_count; other++) {
-        if (has_edge(mesh, f, vertex, other) && has_edge(mesh, g, vertex, other)) {
+    for (mt_index i = 0; i < sides_of(mesh, f); i++) {
+        if (shares_side(mesh, f, i, g, vertex)) {
             return true;
         }
     }
@@ -213,16 +221,6 @@ bool test_face_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index face
     }
 }
 
-static bool share_edge(const mt_mesh *mesh, mt_index f, mt_index g)
-{
-    for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex++) {
-        if (share_edge_at(mesh, f, g, vertex)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static mt_index count_components(const mt_mesh *mesh)
 {
     face_sets sets = {malloc((mesh->face_count + (size_t)1) * sizeof(mt_index)), mesh->face_count};
@@ -231,7 +229,7 @@ static mt_index count_components(const mt_mesh *mesh)
     }
     for (mt_index f = 0; f < mesh->face_count; f++) {
         for (mt_index g = 0; g < f; g++) {
-            if (share_edge(mesh, f, g)) {
+            if (share_edge_at(mesh, f, g, MT_NONE)) {
                 merge(&sets, mesh->face_count, f, g);
             }
         }
@@ -240,30 +238,45 @@ static mt_index count_components(const mt_mesh *mesh)
     return sets.count;
 }
 
-/* Whether turning some faces leaves no edge along which two run in the same direction: colours spread from each face
- * that has none, until one contradicts. */
+/* What the colour of face g must be for side i of face f, 0 when it is free. */
+static int wanted_color(const mt_mesh *mesh, mt_index f, mt_index i, mt_index g, int color)
+{
+    mt_index a = vertex_of(mesh, f, i), b = vertex_of(mesh, f, i + 1);
+    if (sides_from_to(mesh, g, a, b)) {
+        return -color;
+    }
+    return sides_from_to(mesh, g, b, a) ? color : 0;
+}
+
+/* Spreads colours to the faces beside coloured ones. False when one would need two. */
+static bool spread_colors(const mt_mesh *mesh, int *color, bool *changed)
+{
+    for (mt_index f = 0; f < mesh->face_count; f++) {
+        for (mt_index i = 0; color[f] && i < sides_of(mesh, f); i++) {
+            for (mt_index g = 0; g < mesh->face_count; g++) {
+                int wanted = f == g ? 0 : wanted_color(mesh, f, i, g, color[f]);
+                if (wanted && color[g] && color[g] != wanted) {
+                    return false;
+                }
+                *changed = *changed || (wanted && !color[g]);
+                color[g] = wanted ? wanted : color[g];
+            }
+        }
+    }
+    return true;
+}
+
+/* Whether turning some faces, those of colour -1, leaves no edge along which two run in the same direction. */
 static bool is_orientable(const mt_mesh *mesh)
 {
     int *color = calloc(mesh->face_count + (size_t)1, sizeof *color);
-    bool right = true, changed = true;
+    bool right = true;
     for (mt_index seed = 0; seed < mesh->face_count && right; seed++) {
         color[seed] = color[seed] ? color[seed] : 1;
-        for (changed = true; changed && right;) {
+        bool changed = true;
+        while (changed && right) {
             changed = false;
-            for (mt_index f = 0; f < mesh->face_count; f++) {
-                for (mt_index g = 0; color[f] && g < mesh->face_count; g++) {
-                    for (mt_index a = 0; f != g && a < mesh->vertex_count; a++) {
-                        for (mt_index b = 0; b < mesh->vertex_count; b++) {
-                            bool same = sides_from_to(mesh, f, a, b) && sides_from_to(mesh, g, a, b);
-                            bool opposite = sides_from_to(mesh, f, a, b) && sides_from_to(mesh, g, b, a);
-                            int wanted = same ? -color[f] : opposite ? color[f] : 0;
-                            right = right && (!wanted || !color[g] || color[g] == wanted);
-                            changed = changed || (wanted && !color[g]);
-                            color[g] = wanted ? wanted : color[g];
-                        }
-                    }
-                }
-            }
+            right = spread_colors(mesh, color, &changed);
         }
     }
     free(color);

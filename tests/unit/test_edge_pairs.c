@@ -110,10 +110,10 @@ static void an_empty_mesh_has_no_edges(void **state)
 {
     (void)state;
     mt_context *context = test_context();
-    mt_mesh *mesh = test_mesh(context, 0, NULL, 0, NULL);
+    double point[3] = {1, 2, 3};
+    mt_mesh *mesh = test_mesh(context, 0, point, 0, NULL);
     expect_definition(context, mesh);
     mt_mesh_destroy(context, mesh);
-    double point[3] = {1, 2, 3};
     mesh = test_mesh(context, 1, point, 0, NULL);
     expect_definition(context, mesh);
     mt_mesh_destroy(context, mesh);
