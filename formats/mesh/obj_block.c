@@ -58,6 +58,7 @@ void mt_obj_block_clear(mt_obj_block *block)
     block->statement_count = 0;
     block->uncolored_count = 0;
     block->weight_count = 0;
+    block->wire_uv_count = 0;
     block->unknown_count = 0;
 }
 

@@ -59,7 +59,8 @@ typedef struct mt_obj_block {
     mt_index face_size;       /* sides of every face while MT_OBJ_SIDES is empty; 0 before the first face */
     uint64_t statement_count; /* of known keywords */
     uint64_t uncolored_count;
-    uint64_t weight_count; /* vertices with a w that is not 1 */
+    uint64_t weight_count;  /* vertices with a w that is not 1 */
+    uint64_t wire_uv_count; /* texture vertices of wires */
     size_t unknown_count;
     size_t unknown_events[MT_OBJ_UNKNOWN_ROOM];
 } mt_obj_block;

@@ -218,17 +218,22 @@ static bool is_news(warning_list *list, int kind, const char *name)
 void mt_obj_warn(mt_context *context, const mt_obj_reader *reader)
 {
     warning_list list = {0};
-    uint64_t weights = 0;
+    uint64_t weights = 0, wire_uvs = 0;
     for (uint64_t i = 0; i < reader->block_count; i++) {
         const mt_obj_block *block = &reader->blocks[i];
         const mt_obj_event *events = block->items[MT_OBJ_EVENTS];
         weights += block->weight_count;
+        wire_uvs += block->wire_uv_count;
         for (size_t k = 0; k < block->counts[MT_OBJ_EVENTS]; k++) {
             const char *name = event_name(block, &events[k]);
             if (events[k].kind >= MT_OBJ_LIBRARY && is_news(&list, events[k].kind, name)) {
                 warn_of(context, reader, &events[k], name);
             }
         }
+    }
+    if (wire_uvs > 0) {
+        mt_warn(context, "%s: wires name %llu texture vertices, which are left out", mt_text_name(reader->text),
+                (unsigned long long)wire_uvs);
     }
     if (weights > 0) {
         mt_warn(context, "%s: %llu vertices have a weight (a fourth number that is not 1), which is left out",

@@ -58,6 +58,7 @@ static const char *scan_vertices(mt_obj_parser *parser, const char *at, mt_obj_s
             mt_index uv;
             bool uv_relative;
             at = mt_obj_reference(parser, at + 1, MT_OBJ_UV, &uv, &uv_relative);
+            block->wire_uv_count++;
         } else if (at && *at == '/') {
             at++;
         }
