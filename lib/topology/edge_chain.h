@@ -19,6 +19,12 @@ typedef struct edge_chains {
     uint64_t steps; /* along the lists so far */
 } edge_chains;
 
+/* Room for the edges of a mesh with little boundary. */
+static inline uint64_t edge_chain_room(const mt_mesh *mesh)
+{
+    return (uint64_t)mesh->corner_count / 2 + mesh->corner_count / 64 + 16;
+}
+
 /* Allocates lists for the vertices and room for edges; on failure too, release. */
 mt_status mt_edge_chains_init(mt_context *context, mt_index vertex_count, mt_index edge_room, edge_chains *chains);
 void mt_edge_chains_release(mt_context *context, edge_chains *chains);

@@ -88,16 +88,10 @@ static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_e
     return MT_OK;
 }
 
-/* Room for the edges of a mesh with little boundary. */
-static uint64_t guess_edge_count(const mt_mesh *mesh)
-{
-    return (uint64_t)mesh->corner_count / 2 + mesh->corner_count / 64 + 16;
-}
-
 /* The fast way. Sets *done when the structure is complete; else it is empty, and the slow way finds out why. */
 static mt_status build_by_chains(mt_context *context, const mt_mesh *mesh, mt_halfedge_mesh *structure, bool *done)
 {
-    uint64_t edge_room = guess_edge_count(mesh);
+    uint64_t edge_room = edge_chain_room(mesh);
     bool simple = true;
     mt_status status = mt_polygons_are_simple(context, mesh, &simple);
     if (status != MT_OK || !simple || 2 * edge_room > MT_INDEX_MAX) {

@@ -1,13 +1,13 @@
-/* Building and unbuilding the triangle-neighbour structure. Paired sides (edge_pairs.c) are nearly the packed
- * neighbours themselves: the array is taken over, and only the boundary differs.
+/* Building and unbuilding the triangle-neighbour structure. A mesh that the structure cannot hold is refused with its
+ * first offender (refusal.c), never thinned out.
  *
  * That no vertex has several fans shows in a count: one fan a vertex is walked, and all corners must be met.
  *
  * Cost: O(vertices + corners) time; 24 bytes a triangle and 4 a vertex kept, what pairing needs meanwhile. */
 #include <meshtool/refusal.h>
-#include <meshtool/triangle_neighbor.h>
 
 #include "lib/topology/source_mesh.h"
+#include "lib/topology/triangle_fill.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 #define WHO_NEEDS "triangle neighbours need"
 
 #define GRAIN 16384
-#define WALKERS 8
+#define WALKERS 32
 
 static mt_status refuse_polygons(mt_context *context, const mt_mesh *mesh)
 {
@@ -32,31 +32,6 @@ static mt_status refuse_polygons(mt_context *context, const mt_mesh *mesh)
         }
     }
     return MT_OK;
-}
-
-/* Copies the corners; going down leaves each vertex its lowest. */
-static void fill_vertices(const mt_mesh *mesh, mt_triangle_neighbor_mesh *structure)
-{
-    const mt_index *from = mesh->corner_vertices;
-    mt_index *to = structure->vertices;
-    mt_index *vertex_corner = structure->vertex_corner;
-    memset(vertex_corner, 0xff, structure->vertex_count * sizeof *vertex_corner);
-    for (mt_index corner = mesh->corner_count; corner-- > 0;) {
-        to[corner] = from[corner];
-        vertex_corner[from[corner]] = corner;
-    }
-}
-
-/* A boundary side pairs with itself so far. The corner that it leaves is the one where its fan begins. */
-static void open_boundary(mt_triangle_neighbor_mesh *structure)
-{
-    mt_index corner_count = 3 * structure->triangle_count;
-    for (mt_index corner = 0; corner < corner_count; corner++) {
-        if (structure->neighbors[corner] == corner) {
-            structure->neighbors[corner] = MT_NONE;
-            structure->vertex_corner[structure->vertices[corner]] = corner;
-        }
-    }
 }
 
 typedef struct fan_count {
@@ -91,44 +66,66 @@ static void count_fans(void *user, uint64_t begin, uint64_t end)
     atomic_fetch_add(&count->corners, corners);
 }
 
-static mt_status fill(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs,
-                      mt_triangle_neighbor_mesh *structure)
+static bool has_one_fan_a_vertex(mt_context *context, const mt_triangle_neighbor_mesh *structure)
 {
-    structure->neighbors = pairs->next_side;
-    pairs->next_side = NULL;
-    fill_vertices(mesh, structure);
-    if (pairs->boundary_count) {
-        open_boundary(structure);
-    }
     fan_count count = {structure, 0};
     mt_parallel_for(context, structure->vertex_count, GRAIN, count_fans, &count);
-    return count.corners == mesh->corner_count ? MT_OK : mt_refuse_vertex(context, mesh, WHO_NEEDS);
+    return count.corners == 3 * structure->triangle_count;
 }
 
-static mt_status build(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs,
-                       mt_triangle_neighbor_mesh *structure)
-{
-    mt_status status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
-    if (status != MT_OK) {
-        return status;
-    }
-    structure->vertex_count = mesh->vertex_count;
-    structure->triangle_count = mesh->face_count;
-    structure->vertices = mt_allocate_array(context, mesh->corner_count, sizeof *structure->vertices);
-    structure->vertex_corner = mt_allocate_array(context, mesh->vertex_count, sizeof *structure->vertex_corner);
-    bool complete = structure->vertices && structure->vertex_corner;
-    return complete ? fill(context, mesh, pairs, structure) : MT_ERROR_OUT_OF_MEMORY;
-}
-
-static mt_status pair_and_build(mt_context *context, const mt_mesh *mesh, mt_triangle_neighbor_mesh *structure)
+static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_triangle_neighbor_mesh *structure)
 {
     mt_edge_pairs *pairs = NULL;
     mt_status status = mt_edge_pairs_create(context, mesh, &pairs);
     if (status == MT_OK) {
-        status = build(context, mesh, pairs, structure);
+        status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
+    }
+    if (status == MT_OK) {
+        mt_triangle_fill(mesh, pairs, structure);
+        status = has_one_fan_a_vertex(context, structure) ? MT_OK : mt_refuse_vertex(context, mesh, WHO_NEEDS);
     }
     mt_edge_pairs_destroy(context, pairs);
     return status;
+}
+
+/* The fast way. Sets *done when the structure is complete; else the slow way finds out why. */
+static mt_status build_by_chains(mt_context *context, const mt_mesh *mesh, mt_triangle_neighbor_mesh *structure,
+                                 bool *done)
+{
+    edge_chains chains = {0};
+    uint64_t edge_room = edge_chain_room(mesh);
+    mt_status status = mt_edge_chains_init(context, mesh->vertex_count, (mt_index)edge_room, &chains);
+    structure->neighbors = mt_allocate_array(context, mesh->corner_count, sizeof *structure->neighbors);
+    if (status == MT_OK && structure->neighbors) {
+        *done = mt_triangle_fill_by_chains(mesh, &chains, (mt_index)edge_room, structure) &&
+                has_one_fan_a_vertex(context, structure);
+    }
+    status = structure->neighbors ? status : MT_ERROR_OUT_OF_MEMORY;
+    mt_edge_chains_release(context, &chains);
+    if (!*done) {
+        mt_free(context, structure->neighbors);
+        structure->neighbors = NULL;
+    }
+    return status;
+}
+
+static mt_status build(mt_context *context, const mt_mesh *mesh, mt_triangle_neighbor_mesh *structure)
+{
+    structure->vertex_count = mesh->vertex_count;
+    structure->triangle_count = mesh->face_count;
+    structure->vertices = mt_allocate_array(context, mesh->corner_count, sizeof *structure->vertices);
+    structure->vertex_corner = mt_allocate_array(context, mesh->vertex_count, sizeof *structure->vertex_corner);
+    if (!structure->vertices || !structure->vertex_corner) {
+        return MT_ERROR_OUT_OF_MEMORY;
+    }
+    bool done = false;
+    if (mesh->corner_count < INT32_MAX && mt_edge_chains_suit(mesh)) {
+        mt_status status = build_by_chains(context, mesh, structure, &done);
+        if (status != MT_OK || done) {
+            return status;
+        }
+    }
+    return build_from_pairs(context, mesh, structure);
 }
 
 mt_status mt_triangle_neighbor_create(mt_context *context, const mt_mesh *mesh, mt_triangle_neighbor_mesh **out)
@@ -140,7 +137,7 @@ mt_status mt_triangle_neighbor_create(mt_context *context, const mt_mesh *mesh, 
     }
     int part = mt_part_begin(context, "triangle neighbours", "steps across sides and around vertices");
     mt_triangle_neighbor_mesh *structure = mt_allocate_zeroed(context, sizeof *structure);
-    status = structure ? pair_and_build(context, mesh, structure) : MT_ERROR_OUT_OF_MEMORY;
+    status = structure ? build(context, mesh, structure) : MT_ERROR_OUT_OF_MEMORY;
     if (status == MT_OK) {
         *out = structure;
     } else {

@@ -39,8 +39,9 @@ static bool pack_side(const mt_index *triangles, mt_triangle_neighbor_mesh *stru
         }
     }
     structure->neighbors[corner] = side;
-    if (side == MT_NONE || structure->vertex_corner[vertices[corner]] == MT_NONE) {
-        structure->vertex_corner[vertices[corner]] = corner;
+    mt_index *own = &structure->vertex_corner[vertices[corner]];
+    if (*own == MT_NONE || structure->neighbors[*own] != MT_NONE) {
+        *own = corner;
     }
     return true;
 }

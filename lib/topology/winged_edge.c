@@ -1,5 +1,5 @@
-/* Building and unbuilding the winged-edge structure. Sides are paired first (edge_pairs.c); a mesh that the structure
- * cannot hold is refused with its first offender (refusal.c), never thinned out.
+/* Building and unbuilding the winged-edge structure. A mesh that the structure cannot hold is refused with its first
+ * offender (refusal.c), never thinned out.
  *
  * That no vertex has several fans shows in a count: one ring a vertex is walked, and every edge must be met twice.
  *
@@ -14,7 +14,7 @@
 #define WHO_NEEDS "winged edges need"
 
 #define GRAIN 16384
-#define WALKERS 8
+#define WALKERS 32
 
 typedef struct ring_count {
     const mt_winged_edge_mesh *structure;
@@ -53,49 +53,93 @@ static void count_rings(void *user, uint64_t begin, uint64_t end)
     atomic_fetch_add(&count->edges, edges);
 }
 
-static mt_status allocate_structure(mt_context *context, const mt_mesh *mesh, mt_index edge_count,
-                                    mt_winged_edge_mesh *structure)
+static bool has_one_ring_a_vertex(mt_context *context, const mt_winged_edge_mesh *structure)
 {
-    if (2 * (uint64_t)edge_count > MT_INDEX_MAX) {
-        return mt_fail(context, MT_ERROR_TOO_LARGE, "%u edges have more sides than an index can number", edge_count);
-    }
-    structure->vertex_count = mesh->vertex_count;
-    structure->face_count = mesh->face_count;
-    structure->edge_count = edge_count;
-    structure->edges = mt_allocate_array(context, edge_count, sizeof *structure->edges);
-    structure->vertex_edge = mt_allocate_array(context, mesh->vertex_count, sizeof *structure->vertex_edge);
-    structure->face_edge = mt_allocate_array(context, mesh->face_count, sizeof *structure->face_edge);
-    bool complete = structure->edges && structure->vertex_edge && structure->face_edge;
-    return complete ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
-}
-
-static mt_status build(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs, mt_winged_edge_mesh *structure)
-{
-    mt_status status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
-    if (status == MT_OK) {
-        status = allocate_structure(context, mesh, pairs->edge_count, structure);
-    }
-    if (status != MT_OK) {
-        return status;
-    }
-    mt_winged_fill(mesh, pairs, structure);
     ring_count count = {structure, 0};
     mt_parallel_for(context, structure->vertex_count, GRAIN, count_rings, &count);
-    return count.edges == 2 * (uint64_t)structure->edge_count ? MT_OK : mt_refuse_vertex(context, mesh, WHO_NEEDS);
+    return count.edges == 2 * (uint64_t)structure->edge_count;
+}
+
+static mt_status allocate_edges(mt_context *context, uint64_t edge_count, mt_winged_edge_mesh *structure)
+{
+    if (2 * edge_count > MT_INDEX_MAX) {
+        return mt_fail(context, MT_ERROR_TOO_LARGE, "%llu edges have more sides than an index can number",
+                       (unsigned long long)edge_count);
+    }
+    structure->edges = mt_allocate_array(context, edge_count, sizeof *structure->edges);
+    return structure->edges ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
+}
+
+static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_winged_edge_mesh *structure)
+{
+    mt_edge_pairs *pairs = NULL;
+    mt_status status = mt_edge_pairs_create(context, mesh, &pairs);
+    if (status == MT_OK) {
+        status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
+    }
+    if (status == MT_OK) {
+        structure->edge_count = pairs->edge_count;
+        status = allocate_edges(context, pairs->edge_count, structure);
+    }
+    if (status == MT_OK) {
+        mt_winged_fill(mesh, pairs, structure);
+        status = has_one_ring_a_vertex(context, structure) ? MT_OK : mt_refuse_vertex(context, mesh, WHO_NEEDS);
+    }
+    mt_edge_pairs_destroy(context, pairs);
+    return status;
+}
+
+/* The fast way. Sets *done when the structure is complete; else the slow way finds out why. */
+static mt_status build_by_chains(mt_context *context, const mt_mesh *mesh, mt_winged_edge_mesh *structure, bool *done)
+{
+    uint64_t edge_room = edge_chain_room(mesh);
+    bool simple = true;
+    mt_status status = mt_polygons_are_simple(context, mesh, &simple);
+    if (status != MT_OK || !simple || 2 * edge_room > MT_INDEX_MAX) {
+        return status;
+    }
+    edge_chains chains = {0};
+    status = allocate_edges(context, edge_room, structure);
+    if (status == MT_OK) {
+        status = mt_edge_chains_init(context, mesh->vertex_count, (mt_index)edge_room, &chains);
+    }
+    if (status == MT_OK) {
+        *done = mt_winged_fill_by_chains(mesh, &chains, (mt_index)edge_room, structure) &&
+                has_one_ring_a_vertex(context, structure);
+    }
+    mt_edge_chains_release(context, &chains);
+    if (!*done) {
+        mt_free(context, structure->edges);
+        structure->edges = NULL;
+    }
+    return status;
+}
+
+static mt_status build(mt_context *context, const mt_mesh *mesh, mt_winged_edge_mesh *structure)
+{
+    structure->vertex_count = mesh->vertex_count;
+    structure->face_count = mesh->face_count;
+    structure->vertex_edge = mt_allocate_array(context, mesh->vertex_count, sizeof *structure->vertex_edge);
+    structure->face_edge = mt_allocate_array(context, mesh->face_count, sizeof *structure->face_edge);
+    if (!structure->vertex_edge || !structure->face_edge) {
+        return MT_ERROR_OUT_OF_MEMORY;
+    }
+    bool done = false;
+    if (mt_edge_chains_suit(mesh)) {
+        mt_status status = build_by_chains(context, mesh, structure, &done);
+        if (status != MT_OK || done) {
+            return status;
+        }
+    }
+    return build_from_pairs(context, mesh, structure);
 }
 
 mt_status mt_winged_edge_create(mt_context *context, const mt_mesh *mesh, mt_winged_edge_mesh **out)
 {
     *out = NULL;
-    mt_edge_pairs *pairs = NULL;
-    mt_status status = mt_edge_pairs_create(context, mesh, &pairs);
-    if (status != MT_OK) {
-        return status;
-    }
     int part = mt_part_begin(context, "winged edges", "walks around vertices and faces, both ways");
     mt_winged_edge_mesh *structure = mt_allocate_zeroed(context, sizeof *structure);
-    status = structure ? build(context, mesh, pairs, structure) : MT_ERROR_OUT_OF_MEMORY;
-    mt_edge_pairs_destroy(context, pairs);
+    mt_status status = structure ? build(context, mesh, structure) : MT_ERROR_OUT_OF_MEMORY;
     if (status == MT_OK) {
         *out = structure;
     } else {

@@ -1,7 +1,8 @@
 /* One pass over the corners numbers the edges and writes all that belongs to faces: an edge's number is known at its
- * first corner, and its second, later one finds it there. Holes are linked afterwards.
+ * first corner, and its second, later one finds it there, by way of the pairs or, faster where faces lie near each
+ * other, by the chains that pairing uses too. Holes are linked afterwards.
  *
- * Cost: O(corners) time, no memory. */
+ * Cost: O(corners) time, no memory but the chains. */
 #include "lib/topology/winged_fill.h"
 #include "lib/topology/inline.h"
 
@@ -19,16 +20,40 @@ _Static_assert(offsetof(mt_winged_edge, tail) == sizeof(mt_index), "head and tai
 _Static_assert(offsetof(mt_winged_edge, left) == offsetof(edge_record, faces), "left and right");
 _Static_assert(offsetof(mt_winged_edge, rprev) == offsetof(edge_record, wings[1]), "the wings of the right");
 
-typedef struct winged_filling {
-    mt_index *corner_side; /* next_side, as far as it has been replaced by 2 * edge + side */
+typedef struct edge_records {
     edge_record *edges;
     mt_index *vertex_edge;
+} edge_records;
+
+typedef struct winged_filling {
+    edge_records records;
+    mt_index *corner_side; /* next_side, as far as it has been replaced by 2 * edge + side */
+    mt_index corner_count;
     mt_index count; /* sides of edges so far, two an edge */
 } winged_filling;
+
+/* Corners that memory is given to fetch what a side's earlier corner holds, and then to fetch the edge to write. */
+#define LOOK_AHEAD 32
+
+/* Asks for what later corners will touch: with faces in a random order nearly every second side is far away. */
+MT_ALWAYS_INLINE void look_ahead(const winged_filling *filling, mt_index corner)
+{
+    if (filling->corner_count - corner <= 2 * LOOK_AHEAD) {
+        return;
+    }
+    mt_index later = corner + 2 * LOOK_AHEAD;
+    mt_index earlier = filling->corner_side[later];
+    __builtin_prefetch(&filling->corner_side[earlier < later ? earlier : later]);
+    later = corner + LOOK_AHEAD;
+    earlier = filling->corner_side[later];
+    mt_index side = earlier < corner ? filling->corner_side[earlier] : filling->count;
+    __builtin_prefetch(&filling->records.edges[side >> 1], 1);
+}
 
 /* The side of a corner: the left of a new edge, or the right of the edge of the earlier corner. */
 MT_ALWAYS_INLINE mt_index number_side(winged_filling *filling, mt_index corner)
 {
+    look_ahead(filling, corner);
     mt_index other = filling->corner_side[corner];
     bool is_first = other >= corner;
     mt_index earlier = filling->corner_side[is_first ? corner : other];
@@ -38,26 +63,38 @@ MT_ALWAYS_INLINE mt_index number_side(winged_filling *filling, mt_index corner)
     return side;
 }
 
-MT_ALWAYS_INLINE void write_side(winged_filling *filling, mt_index side, mt_index tail, mt_index head, mt_index face)
+MT_ALWAYS_INLINE void write_side(edge_records *records, mt_index side, mt_index tail, mt_index head, mt_index face)
 {
-    edge_record *edge = &filling->edges[side >> 1];
+    edge_record *edge = &records->edges[side >> 1];
     edge->vertices[side & 1] = head;
     edge->vertices[~side & 1] = tail;
     edge->faces[side & 1] = face;
-    filling->vertex_edge[tail] = side >> 1;
+    records->vertex_edge[tail] = side >> 1;
 }
 
-MT_ALWAYS_INLINE void write_wings(winged_filling *filling, mt_index side, mt_index previous, mt_index next)
+MT_ALWAYS_INLINE void write_wings(edge_records *records, mt_index side, mt_index previous, mt_index next)
 {
-    mt_index *wings = filling->edges[side >> 1].wings[side & 1];
+    mt_index *wings = records->edges[side >> 1].wings[side & 1];
     wings[0] = previous >> 1;
     wings[1] = next >> 1;
 }
 
-MT_ALWAYS_INLINE void close_side(winged_filling *filling, bool is_boundary, mt_index side)
+MT_ALWAYS_INLINE void write_triangle(edge_records *records, const mt_index *vertex, mt_index a, mt_index b, mt_index c,
+                                     mt_index face)
+{
+    write_side(records, a, vertex[0], vertex[1], face);
+    write_side(records, b, vertex[1], vertex[2], face);
+    write_side(records, c, vertex[2], vertex[0], face);
+    write_wings(records, a, c, b);
+    write_wings(records, b, a, c);
+    write_wings(records, c, b, a);
+}
+
+/* The outside comes to the right of a new edge, until its second side is met. */
+MT_ALWAYS_INLINE void open_side(winged_filling *filling, bool is_boundary, mt_index side)
 {
     if (is_boundary) {
-        filling->edges[side >> 1].faces[1] = MT_NONE;
+        filling->records.edges[side >> 1].faces[1] = MT_NONE;
     }
 }
 
@@ -68,16 +105,11 @@ MT_ALWAYS_INLINE mt_index fill_triangle(winged_filling *filling, const mt_index 
     mt_index a = number_side(filling, corner);
     mt_index b = number_side(filling, corner + 1);
     mt_index c = number_side(filling, corner + 2);
-    write_side(filling, a, vertex[0], vertex[1], face);
-    write_side(filling, b, vertex[1], vertex[2], face);
-    write_side(filling, c, vertex[2], vertex[0], face);
-    write_wings(filling, a, c, b);
-    write_wings(filling, b, a, c);
-    write_wings(filling, c, b, a);
+    write_triangle(&filling->records, vertex, a, b, c, face);
     if (a_bounds | b_bounds | c_bounds) {
-        close_side(filling, a_bounds, a);
-        close_side(filling, b_bounds, b);
-        close_side(filling, c_bounds, c);
+        open_side(filling, a_bounds, a);
+        open_side(filling, b_bounds, b);
+        open_side(filling, c_bounds, c);
     }
     return a >> 1;
 }
@@ -88,14 +120,15 @@ MT_ALWAYS_INLINE mt_index fill_polygon(winged_filling *filling, const mt_index *
     for (mt_index corner = begin; corner < end; corner++) {
         bool is_boundary = filling->corner_side[corner] == corner;
         mt_index side = number_side(filling, corner);
-        write_side(filling, side, vertices[corner], vertices[corner + 1 < end ? corner + 1 : begin], face);
-        close_side(filling, is_boundary, side);
+        write_side(&filling->records, side, vertices[corner - begin],
+                   vertices[corner + 1 < end ? corner + 1 - begin : 0], face);
+        open_side(filling, is_boundary, side);
     }
     const mt_index *sides = filling->corner_side;
     mt_index previous = sides[end - 1];
     for (mt_index corner = begin; corner < end; corner++) {
         mt_index side = sides[corner];
-        write_wings(filling, side, previous, sides[corner + 1 < end ? corner + 1 : begin]);
+        write_wings(&filling->records, side, previous, sides[corner + 1 < end ? corner + 1 : begin]);
         previous = side;
     }
     return sides[begin] >> 1;
@@ -103,14 +136,16 @@ MT_ALWAYS_INLINE mt_index fill_polygon(winged_filling *filling, const mt_index *
 
 static void fill_faces(const mt_mesh *mesh, mt_edge_pairs *pairs, mt_winged_edge_mesh *structure)
 {
-    winged_filling filling = {pairs->next_side, (edge_record *)structure->edges, structure->vertex_edge, 0};
+    winged_filling filling = {.records = {(edge_record *)structure->edges, structure->vertex_edge},
+                              .corner_side = pairs->next_side,
+                              .corner_count = mesh->corner_count};
     mt_index *face_edge = structure->face_edge;
-    const mt_index *vertices = mesh->corner_vertices;
     for (mt_index face = 0; face < mesh->face_count; face++) {
         mt_index begin = mt_mesh_face_begin(mesh, face);
         mt_index end = mt_mesh_face_end(mesh, face);
+        const mt_index *vertices = mesh->corner_vertices + begin;
         bool triangle = end - begin == 3;
-        face_edge[face] = triangle ? fill_triangle(&filling, vertices + begin, begin, face)
+        face_edge[face] = triangle ? fill_triangle(&filling, vertices, begin, face)
                                    : fill_polygon(&filling, vertices, begin, end, face);
     }
 }
@@ -134,11 +169,94 @@ static void link_boundary(mt_winged_edge_mesh *structure)
     }
 }
 
-void mt_winged_fill(const mt_mesh *mesh, mt_edge_pairs *pairs, mt_winged_edge_mesh *structure)
+static void forget_edges(mt_winged_edge_mesh *structure)
 {
     memset(structure->vertex_edge, 0xff, structure->vertex_count * sizeof *structure->vertex_edge);
+}
+
+void mt_winged_fill(const mt_mesh *mesh, mt_edge_pairs *pairs, mt_winged_edge_mesh *structure)
+{
+    forget_edges(structure);
     fill_faces(mesh, pairs, structure);
     if (pairs->boundary_count) {
         link_boundary(structure);
     }
+}
+
+/* The pass over the faces by chains. */
+typedef struct chain_filling {
+    edge_chains chains;
+    edge_records records;
+    bool fits; /* nothing met so far that winged edges cannot hold */
+} chain_filling;
+
+/* The side of an edge: the left of a new one, with the outside to its right meanwhile. The entry notes where the edge's
+ * second side must head for, MT_NONE once there is one: the edges themselves, which may be far away, are only written.
+ */
+MT_ALWAYS_INLINE mt_index place_side(chain_filling *fill, mt_index tail, mt_index head)
+{
+    fill->fits &= tail != head;
+    mt_index count = fill->chains.entry_count;
+    mt_index edge = edge_chain_find(&fill->chains, tail < head ? tail : head, tail < head ? head : tail);
+    mt_index *note = &fill->chains.entries[edge].note;
+    if (edge == count) {
+        *note = tail;
+        fill->records.edges[edge].faces[1] = MT_NONE;
+        return 2 * edge;
+    }
+    fill->fits &= *note == head;
+    *note = MT_NONE;
+    return 2 * edge + 1;
+}
+
+MT_ALWAYS_INLINE mt_index place_polygon(chain_filling *fill, const mt_index *vertices, mt_index sides, mt_index face)
+{
+    mt_index first = place_side(fill, vertices[0], vertices[1]);
+    write_side(&fill->records, first, vertices[0], vertices[1], face);
+    mt_index before = first, side = first;
+    for (mt_index i = 1; i < sides; i++) {
+        mt_index head = vertices[i + 1 < sides ? i + 1 : 0];
+        mt_index next = place_side(fill, vertices[i], head);
+        write_side(&fill->records, next, vertices[i], head, face);
+        write_wings(&fill->records, side, before, next);
+        before = side;
+        side = next;
+    }
+    write_wings(&fill->records, side, before, first);
+    fill->records.edges[first >> 1].wings[first & 1][0] = side >> 1;
+    return first >> 1;
+}
+
+MT_ALWAYS_INLINE mt_index place_triangle(chain_filling *fill, const mt_index *vertex, mt_index face)
+{
+    mt_index a = place_side(fill, vertex[0], vertex[1]);
+    mt_index b = place_side(fill, vertex[1], vertex[2]);
+    mt_index c = place_side(fill, vertex[2], vertex[0]);
+    write_triangle(&fill->records, vertex, a, b, c, face);
+    return a >> 1;
+}
+
+bool mt_winged_fill_by_chains(const mt_mesh *mesh, edge_chains *chains, mt_index edge_room,
+                              mt_winged_edge_mesh *structure)
+{
+    forget_edges(structure);
+    chain_filling fill = {*chains, {(edge_record *)structure->edges, structure->vertex_edge}, true};
+    uint64_t step_limit = edge_chain_step_limit(mesh->corner_count);
+    mt_index face = 0;
+    for (; face < mesh->face_count && fill.fits && fill.chains.steps <= step_limit; face++) {
+        mt_index begin = mt_mesh_face_begin(mesh, face);
+        mt_index sides = mt_mesh_face_end(mesh, face) - begin;
+        const mt_index *vertices = mesh->corner_vertices + begin;
+        if (sides > edge_room - fill.chains.entry_count) {
+            return false;
+        }
+        structure->face_edge[face] =
+            sides == 3 ? place_triangle(&fill, vertices, face) : place_polygon(&fill, vertices, sides, face);
+    }
+    structure->edge_count = fill.chains.entry_count;
+    bool complete = fill.fits && face == mesh->face_count;
+    if (complete && 2 * (uint64_t)structure->edge_count != mesh->corner_count) {
+        link_boundary(structure);
+    }
+    return complete;
 }

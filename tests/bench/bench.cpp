@@ -104,11 +104,8 @@ void write_csv(const char *path)
 }
 
 const Case cases[] = {
-    {"reading", run_reading},
-    {"connectivity", run_connectivity},
-    {"check", run_check},
-    {"self-intersection", run_self_intersection},
-    {"subdivision", run_subdivision},
+    {"reading", run_reading}, {"connectivity", run_connectivity},           {"one-ring", run_one_ring},
+    {"check", run_check},     {"self-intersection", run_self_intersection}, {"subdivision", run_subdivision},
     {"preview", run_preview},
 };
 
@@ -187,8 +184,8 @@ int main(int argc, char **argv)
     int result = bench::run_cases(argc - first, argv + first);
     if (result == 2) {
         std::fprintf(stderr,
-                     "bench: no such case; there are reading, connectivity, check, self-intersection, subdivision, "
-                     "preview\n");
+                     "bench: no such case; there are reading, connectivity, one-ring, check, self-intersection, "
+                     "subdivision, preview\n");
     }
     if (csv) {
         bench::write_csv(csv);

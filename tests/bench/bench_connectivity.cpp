@@ -1,9 +1,11 @@
-// Edge pairing and half-edges from an indexed array, beside the add_face loops of OpenMesh and CGAL.
+// Each connectivity structure from an indexed array, beside the add_face loops of OpenMesh and CGAL.
 #include "tests/bench/bench.hpp"
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+#include <cstdio>
 
 namespace bench
 {
@@ -13,12 +15,28 @@ namespace
 using OpenMeshMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 using CgalMesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
 
-void build_ours(mt_context *context, const mt_mesh *mesh)
+// A structure of ours: builds and drops it, and returns the bytes that it held.
+struct Builder {
+    const char *name;
+    std::uint64_t (*build)(mt_context *, const mt_mesh *);
+};
+
+template <typename Structure, auto create, auto size, auto destroy>
+std::uint64_t build(mt_context *context, const mt_mesh *mesh)
 {
-    mt_halfedge_mesh *structure = nullptr;
-    require(context, mt_halfedge_create(context, mesh, &structure));
-    mt_halfedge_destroy(context, structure);
+    Structure *structure = nullptr;
+    require(context, create(context, mesh, &structure));
+    std::uint64_t bytes = size(structure);
+    destroy(context, structure);
+    return bytes;
 }
+
+const Builder builders[] = {
+    {"half-edges", build<mt_halfedge_mesh, mt_halfedge_create, mt_halfedge_size, mt_halfedge_destroy>},
+    {"winged edges", build<mt_winged_edge_mesh, mt_winged_edge_create, mt_winged_edge_size, mt_winged_edge_destroy>},
+    {"triangle neighbours", build<mt_triangle_neighbor_mesh, mt_triangle_neighbor_create, mt_triangle_neighbor_size,
+                                  mt_triangle_neighbor_destroy>},
+};
 
 void build_openmesh(const mt_mesh *mesh)
 {
@@ -50,18 +68,30 @@ void build_cgal(const mt_mesh *mesh)
     }
 }
 
-void compare_on(std::uint64_t size, bool shuffled)
+std::string bytes_note(std::uint64_t bytes, const mt_mesh *mesh)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, "holds %.1f bytes a triangle", double(bytes) / mesh->face_count);
+    return text;
+}
+
+void compare_on(std::uint64_t size, bool shuffled, bool with_cgal)
 {
     mt_mesh *mesh = wavy_torus(size, false, shuffled);
-    Row row;
-    row.name = "half-edges";
-    row.mesh = shuffled ? "torus shuffled" : "torus";
-    row.faces = mesh->face_count;
-    row.peer = "OpenMesh";
-    auto ours = [mesh](mt_context *context) { build_ours(context, mesh); };
-    compare(row, ours, [mesh] { build_openmesh(mesh); });
-    row.peer = "CGAL";
-    compare(row, ours, [mesh] { build_cgal(mesh); });
+    for (const Builder &builder : builders) {
+        Row row;
+        row.name = builder.name;
+        row.mesh = shuffled ? "torus shuffled" : "torus";
+        row.faces = mesh->face_count;
+        row.note = bytes_note(builder.build(shared_context(), mesh), mesh);
+        auto ours = [mesh, &builder](mt_context *context) { builder.build(context, mesh); };
+        row.peer = "OpenMesh";
+        compare(row, ours, [mesh] { build_openmesh(mesh); });
+        if (with_cgal) {
+            row.peer = "CGAL";
+            compare(row, ours, [mesh] { build_cgal(mesh); });
+        }
+    }
     mt_mesh_destroy(shared_context(), mesh);
 }
 
@@ -70,9 +100,10 @@ void compare_on(std::uint64_t size, bool shuffled)
 void run_connectivity()
 {
     for (std::uint64_t size : sizes) {
-        compare_on(size, false);
+        compare_on(size, false, true);
     }
-    compare_on(1000000, true);
+    compare_on(5000000, false, false);
+    compare_on(1000000, true, true);
 }
 
 } // namespace bench

@@ -41,7 +41,7 @@ static void neighbors_are_packed_as_triangle_and_side(void **state)
     assert_false(mt_triangle_neighbor_vertex_is_boundary(structure, 4));
     assert_int_equal(mt_triangle_neighbor_valence(structure, 4), 8);
     assert_int_equal(mt_triangle_neighbor_valence(structure, 0), 3);
-    assert_int_equal(structure->vertex_corner[4], 2);
+    assert_int_equal(structure->vertex_corner[4], 21);
     assert_int_equal(structure->vertices[structure->vertex_corner[3]], 3);
     assert_int_equal(structure->neighbors[structure->vertex_corner[3]], MT_NONE);
     mt_triangle_neighbor_destroy(context, structure);

@@ -22,7 +22,7 @@ typedef struct mt_triangle_neighbor_mesh {
     mt_index triangle_count;
     mt_index *vertices;      /* 3 a triangle */
     mt_index *neighbors;     /* 3 a triangle: the corner of the opposite side, MT_NONE at the boundary */
-    mt_index *vertex_corner; /* per vertex its lowest corner, or, on the boundary, the one from which stepping
+    mt_index *vertex_corner; /* per vertex its highest corner, or, on the boundary, the one from which stepping
                                 counter-clockwise sweeps the whole fan; MT_NONE for isolated vertices */
 } mt_triangle_neighbor_mesh;
 

@@ -6,7 +6,7 @@
  * wings there are linked all the same, from one boundary edge to the next around the hole: so every ring is closed, and
  * no loop must turn back at the boundary.
  *
- * A closed mesh of triangles takes 54 bytes a triangle. */
+ * A closed mesh of triangles takes 54 bytes a triangle; while it is built some room more is held, and kept. */
 #ifndef MESHTOOL_WINGED_EDGE_H
 #define MESHTOOL_WINGED_EDGE_H
 
