@@ -55,16 +55,17 @@ static uint64_t halfedge_hash(const void *opaque)
 
 static void halfedge_vertex_ring(const void *structure, mt_index vertex, bool clockwise, test_ring *ring)
 {
-    mt_index begin = ((const mt_halfedge_mesh *)structure)->vertex_halfedge[vertex];
-    if (begin == MT_NONE) {
-        return;
+    mt_halfedge_ring at =
+        clockwise ? mt_halfedge_ring_begin_clockwise(structure, vertex) : mt_halfedge_ring_begin(structure, vertex);
+    while (mt_halfedge_ring_goes_on(&at)) {
+        assert_int_equal(mt_halfedge_head(structure, at.halfedge), vertex);
+        add(ring, at.neighbor, at.face);
+        if (clockwise) {
+            mt_halfedge_ring_clockwise(structure, &at);
+        } else {
+            mt_halfedge_ring_counterclockwise(structure, &at);
+        }
     }
-    begin = clockwise ? mt_halfedge_clockwise(structure, begin) : begin;
-    mt_index h = begin;
-    do {
-        add(ring, mt_halfedge_tail(structure, h), mt_halfedge_face(structure, h ^ 1u));
-        h = clockwise ? mt_halfedge_clockwise(structure, h) : mt_halfedge_counterclockwise(structure, h);
-    } while (h != begin);
 }
 
 static void halfedge_face_ring(const void *structure, mt_index face, bool clockwise, test_ring *ring)

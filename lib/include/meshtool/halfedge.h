@@ -103,16 +103,8 @@ static inline mt_index mt_halfedge_previous(const mt_halfedge_mesh *structure, m
     return at;
 }
 
-/* Circulators. Each begins at a half-edge and steps until it is back there; boundary half-edges close every ring.
- *
- *     mt_index begin = structure->vertex_halfedge[vertex], h = begin;   (MT_NONE: an isolated vertex)
- *     do {
- *         neighbour vertex: mt_halfedge_tail(structure, h); edge: h >> 1; face: mt_halfedge_face(structure, h)
- *         h = mt_halfedge_clockwise(structure, h);
- *     } while (h != begin);
- *
- * Around a face or a boundary loop: begin with face_halfedge and step with mt_halfedge_next; the neighbouring face is
- * mt_halfedge_face(structure, h ^ 1). */
+/* Around a face or a boundary loop: begin with face_halfedge and step with mt_halfedge_next until it is back there; the
+ * neighbouring face is mt_halfedge_face(structure, h ^ 1). Around a vertex boundary half-edges close every ring. */
 
 /* The next half-edge that points to the same vertex, clockwise seen from the front. O(1). */
 static inline mt_index mt_halfedge_clockwise(const mt_halfedge_mesh *structure, mt_index halfedge)
@@ -126,17 +118,74 @@ static inline mt_index mt_halfedge_counterclockwise(const mt_halfedge_mesh *stru
     return mt_halfedge_previous(structure, halfedge ^ 1u);
 }
 
+/* The ring of a vertex: its edges one after the other, each with the vertex at its other end and the face that follows
+ * it counter-clockwise, MT_NONE where that is the outside; isolated vertices have none. On the boundary it begins with
+ * the edge from which stepping counter-clockwise sweeps the whole fan.
+ *
+ *     for (mt_halfedge_ring ring = mt_halfedge_ring_begin(structure, vertex); mt_halfedge_ring_goes_on(&ring);
+ *          mt_halfedge_ring_counterclockwise(structure, &ring)) {
+ *         ring.neighbor; ring.halfedge; ring.face;
+ *     }
+ *
+ * Clockwise begins with mt_halfedge_ring_begin_clockwise and meets the same edges in the opposite order, without
+ * looking for a previous half-edge. */
+typedef struct mt_halfedge_ring {
+    mt_index neighbor; /* the vertex at the other end of the edge */
+    mt_index face;     /* the face counter-clockwise of the edge */
+    mt_index halfedge; /* the one that points to the ring's vertex; MT_NONE at the end */
+    mt_index begin;    /* the half-edge that ends the ring */
+} mt_halfedge_ring;
+
+static inline bool mt_halfedge_ring_goes_on(const mt_halfedge_ring *ring)
+{
+    return ring->halfedge != MT_NONE;
+}
+
+static inline mt_halfedge_ring mt_halfedge_ring_at(const mt_halfedge_mesh *structure, mt_index halfedge)
+{
+    mt_halfedge_ring ring = {MT_NONE, MT_NONE, halfedge, halfedge};
+    if (halfedge != MT_NONE) {
+        ring.neighbor = mt_halfedge_tail(structure, halfedge);
+        ring.face = mt_halfedge_face(structure, halfedge ^ 1u);
+    }
+    return ring;
+}
+
+static inline void mt_halfedge_ring_go_to(const mt_halfedge_mesh *structure, mt_halfedge_ring *ring, mt_index halfedge)
+{
+    mt_index begin = ring->begin;
+    *ring = mt_halfedge_ring_at(structure, halfedge == begin ? MT_NONE : halfedge);
+    ring->begin = begin;
+}
+
+static inline mt_halfedge_ring mt_halfedge_ring_begin(const mt_halfedge_mesh *structure, mt_index vertex)
+{
+    return mt_halfedge_ring_at(structure, structure->vertex_halfedge[vertex]);
+}
+
+static inline void mt_halfedge_ring_counterclockwise(const mt_halfedge_mesh *structure, mt_halfedge_ring *ring)
+{
+    mt_halfedge_ring_go_to(structure, ring, mt_halfedge_counterclockwise(structure, ring->halfedge));
+}
+
+static inline mt_halfedge_ring mt_halfedge_ring_begin_clockwise(const mt_halfedge_mesh *structure, mt_index vertex)
+{
+    mt_index halfedge = structure->vertex_halfedge[vertex];
+    return mt_halfedge_ring_at(structure, halfedge == MT_NONE ? MT_NONE : mt_halfedge_clockwise(structure, halfedge));
+}
+
+static inline void mt_halfedge_ring_clockwise(const mt_halfedge_mesh *structure, mt_halfedge_ring *ring)
+{
+    mt_halfedge_ring_go_to(structure, ring, mt_halfedge_clockwise(structure, ring->halfedge));
+}
+
 /* Edges at the vertex, 0 for isolated ones. O(valence). */
 static inline mt_index mt_halfedge_valence(const mt_halfedge_mesh *structure, mt_index vertex)
 {
-    mt_index begin = structure->vertex_halfedge[vertex];
     mt_index count = 0;
-    for (mt_index h = begin; h != MT_NONE;) {
+    for (mt_halfedge_ring ring = mt_halfedge_ring_begin_clockwise(structure, vertex); mt_halfedge_ring_goes_on(&ring);
+         mt_halfedge_ring_clockwise(structure, &ring)) {
         count++;
-        h = mt_halfedge_clockwise(structure, h);
-        if (h == begin) {
-            break;
-        }
     }
     return count;
 }
