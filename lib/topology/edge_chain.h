@@ -1,4 +1,6 @@
-/* Chains: each edge met so far hangs in a list at its lower vertex, and a side looks for its edge there. */
+/* Chains: each edge met so far hangs in a list at its higher vertex, and a side looks for its edge there. In a mesh
+ * that was refined before, old vertices have many new neighbours, from faces far apart in memory, and new ones few old.
+ */
 #ifndef MT_TOPOLOGY_EDGE_CHAIN_H
 #define MT_TOPOLOGY_EDGE_CHAIN_H
 
@@ -7,13 +9,13 @@
 #include <meshtool/mesh.h>
 
 typedef struct chain_entry {
-    mt_index other; /* the higher vertex */
-    mt_index link;  /* the next edge of the lower vertex, MT_NONE at the end */
+    mt_index other; /* the lower vertex */
+    mt_index link;  /* the next edge of the higher vertex, MT_NONE at the end */
     mt_index note;  /* the caller's */
 } chain_entry;
 
 typedef struct edge_chains {
-    mt_index *heads; /* per lower vertex its newest edge, MT_NONE: none */
+    mt_index *heads; /* per higher vertex its newest edge, MT_NONE: none */
     chain_entry *entries;
     mt_index entry_count;
     uint64_t steps; /* along the lists so far */
@@ -41,18 +43,18 @@ static inline uint64_t edge_chain_step_limit(uint64_t side_count)
 
 /* The number of the edge between two different vertices, made if need be: then it is the count before. Edges are thus
  * numbered in the order of their first sides. Always inline, so that a local edge_chains stays in registers. */
-MT_ALWAYS_INLINE mt_index edge_chain_find(edge_chains *chains, mt_index lower, mt_index other)
+MT_ALWAYS_INLINE mt_index edge_chain_find(edge_chains *chains, mt_index lower, mt_index higher)
 {
-    mt_index at = chains->heads[lower];
-    while (at != MT_NONE && chains->entries[at].other != other) {
+    mt_index at = chains->heads[higher];
+    while (at != MT_NONE && chains->entries[at].other != lower) {
         at = chains->entries[at].link;
         chains->steps++;
     }
     if (at == MT_NONE) {
         at = chains->entry_count++;
-        chains->entries[at].other = other;
-        chains->entries[at].link = chains->heads[lower];
-        chains->heads[lower] = at;
+        chains->entries[at].other = lower;
+        chains->entries[at].link = chains->heads[higher];
+        chains->heads[higher] = at;
     }
     return at;
 }
