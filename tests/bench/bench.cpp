@@ -87,19 +87,29 @@ void print_head()
                 "peer ms", "peer", "ratio1", "ratio", "MB ours", "MB peer", "error");
 }
 
+// Names and notes may have commas in them.
+std::string quoted(const std::string &text)
+{
+    std::string result = "\"";
+    for (char c : text) {
+        result += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return result + '"';
+}
+
 void write_csv(const char *path)
 {
     std::ofstream csv(path);
     csv << "case,mesh,faces,peer,ours_1_thread_s,ours_all_threads_s,peer_s,ours_spread,peer_spread,"
            "ours_peak_bytes,peer_peak_bytes,error,note\n";
     for (const Row &row : all_rows) {
-        csv << row.name << ',' << row.mesh << ',' << row.faces << ',' << row.peer << ',' << row.ours.seconds << ','
-            << row.ours_all.seconds << ',' << row.theirs.seconds << ',' << row.ours.spread << ',' << row.theirs.spread
-            << ',' << row.ours.peak << ',' << row.theirs.peak << ',';
+        csv << quoted(row.name) << ',' << quoted(row.mesh) << ',' << row.faces << ',' << quoted(row.peer) << ','
+            << row.ours.seconds << ',' << row.ours_all.seconds << ',' << row.theirs.seconds << ',' << row.ours.spread
+            << ',' << row.theirs.spread << ',' << row.ours.peak << ',' << row.theirs.peak << ',';
         if (row.error >= 0) {
             csv << row.error;
         }
-        csv << ',' << row.note << '\n';
+        csv << ',' << quoted(row.note) << '\n';
     }
 }
 
