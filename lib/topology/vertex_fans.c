@@ -127,7 +127,7 @@ static inline void step(const fan_walk *walk, walker *own)
     own->is_short |= across == own->corner;
     own->corner = next_in_face(walk, across);
     own->is_short |= own->corner == own->first;
-    own->left--;
+    own->left = own->is_short ? 0 : own->left - 1;
 }
 
 static void walk_vertices(void *user, uint64_t begin, uint64_t end)
