@@ -4,6 +4,7 @@
 
 /* The ground floor */
 #include <meshtool/checked.h>    /* sizes that say when they overflow */
+#include <meshtool/clones.h>     /* loops compiled for wider instructions */
 #include <meshtool/context.h>    /* memory, threads, progress, errors, explain */
 #include <meshtool/elementary.h> /* sin, cos, log ... with the same bits everywhere */
 #include <meshtool/predicates.h> /* exact orientation */
@@ -31,7 +32,9 @@
 #include <meshtool/winged_edge.h>        /* edges with their vertices, faces and wings */
 
 /* Space */
-#include <meshtool/aabb_tree.h> /* a tree of boxes over triangles */
+#include <meshtool/aabb_tree.h>    /* a tree of boxes over triangles */
+#include <meshtool/ray.h>          /* where a ray meets a triangle */
+#include <meshtool/surface_tree.h> /* a wide tree for rays and closest points */
 
 /* Algorithms */
 #include <meshtool/manifold.h>          /* the check that finds everything */
