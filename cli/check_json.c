@@ -43,6 +43,21 @@ static void set_counts(json_t *object, const mt_manifold_report *report)
     }
 }
 
+static json_t *welded_json(const mt_manifold_report *report)
+{
+    if (!report->has_as_welded) {
+        return json_null();
+    }
+    const mt_manifold_welded *welded = &report->as_welded;
+    json_t *object = cli_json_object();
+    cli_json_set(object, "class", cli_json_text(class_name(welded->manifold_class)));
+    cli_json_set(object, "vertices", cli_json_integer(welded->vertex_count));
+    cli_json_set(object, "boundary_edges", cli_json_integer(welded->boundary_edge_count));
+    cli_json_set(object, "non_manifold_edges", cli_json_integer(welded->non_manifold_edge_count));
+    cli_json_set(object, "non_manifold_vertices", cli_json_integer(welded->non_manifold_vertex_count));
+    return object;
+}
+
 static void set_shape(json_t *object, const mt_manifold_report *report)
 {
     cli_json_set(object, "components", cli_json_integer(report->component_count));
@@ -57,7 +72,7 @@ static void set_shape(json_t *object, const mt_manifold_report *report)
     cli_json_set(object, "self_intersections",
                  report->has_self_intersections ? cli_json_integer(report->defect_counts[MT_DEFECT_SELF_INTERSECTION])
                                                 : json_null());
-    cli_json_set(object, "as_welded", json_null());
+    cli_json_set(object, "as_welded", welded_json(report));
 }
 
 static json_t *indices_json(const mt_index *indices, mt_index count)

@@ -139,6 +139,45 @@ static void print_boundary(mt_context *context, const cli_check *check)
     cli_check_print_loops(context, check);
 }
 
+/* The file's name as a shell takes it, or a stand-in. */
+static const char *shell_name(const char *file)
+{
+    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./+-";
+    return *file != '-' && file[strspn(file, plain)] == '\0' ? file : "FILE";
+}
+
+static const char *class_told(mt_manifold_class manifold_class)
+{
+    static const char *const names[] = {
+        [MT_MANIFOLD] = "manifold and closed",
+        [MT_MANIFOLD_WITH_BOUNDARY] = "manifold with boundary",
+        [MT_NON_MANIFOLD] = "not manifold",
+    };
+    return names[manifold_class];
+}
+
+/* Vertices at the same place that faces do not share: invisible, and the usual cause of seams. */
+static void print_as_welded(const cli_check *check)
+{
+    const mt_manifold_report *report = check->report;
+    const mt_manifold_welded *welded = &report->as_welded;
+    mt_index excess = report->vertex_count - (report->has_as_welded ? welded->vertex_count : report->vertex_count);
+    if (!excess) {
+        return;
+    }
+    const char *still = welded->manifold_class == report->manifold_class ? "still " : "";
+    printf("\n%s %s at the place of another. As welded it would %sbe %s, ", cli_counted(excess, "vertex").text,
+           excess == 1 ? "is" : "are", still, class_told(welded->manifold_class));
+    printf("with %s", cli_counted(welded->boundary_edge_count, "boundary edge").text);
+    if (welded->non_manifold_edge_count) {
+        printf(", %s", cli_counted(welded->non_manifold_edge_count, "non-manifold edge").text);
+    }
+    if (welded->non_manifold_vertex_count) {
+        printf(", %s", cli_counted(welded->non_manifold_vertex_count, "non-manifold vertex").text);
+    }
+    printf("; `meshtool repair %s --weld` joins them.\n", shell_name(check->file));
+}
+
 static void print_volume(const mt_manifold_report *report)
 {
     if (report->has_volume) {
@@ -170,18 +209,12 @@ static void print_figures(const cli_check *check)
     print_volume(report);
 }
 
-/* The file's name as a shell takes it, or a stand-in. */
-static const char *shell_name(const char *file)
-{
-    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./+-";
-    return *file != '-' && file[strspn(file, plain)] == '\0' ? file : "FILE";
-}
-
 void cli_check_print_text(mt_context *context, const cli_check *check)
 {
     cli_check_print_verdict(check);
     bool found = print_defects(check);
     print_boundary(context, check);
+    print_as_welded(check);
     if (check->report->face_count || check->report->vertex_count) {
         print_figures(check);
     }

@@ -91,9 +91,11 @@ static cli_exit check_file(const cli_job *job, const char *file)
     if (code != CLI_EXIT_DONE) {
         return code;
     }
-    bool needs_all = settings->paint || form_of(job) == CHECK_FORM_TEXT;
+    check_form form = form_of(job);
+    bool needs_all = settings->paint || form == CHECK_FORM_TEXT;
     mt_manifold_options how = {.defects_per_kind = needs_all ? UINT64_MAX : check.listed_per_kind,
-                               .self_intersections = settings->self_intersections || settings->watertight};
+                               .self_intersections = settings->self_intersections || settings->watertight,
+                               .as_welded = form == CHECK_FORM_JSON || form == CHECK_FORM_TEXT};
     mt_manifold_report report;
     if (mt_check_manifold(job->context, mesh, &how, &report) != MT_OK) {
         code = cli_report_failure(job, file);

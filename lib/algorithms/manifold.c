@@ -134,6 +134,9 @@ static mt_status run_check(manifold_check *check, const mt_manifold_options *opt
     if (status == MT_OK && options->self_intersections) {
         status = find_self_intersections(check);
     }
+    if (status == MT_OK && options->as_welded) {
+        status = mt_manifold_look_as_welded(check);
+    }
     uint64_t limit = options->defects_per_kind ? options->defects_per_kind : LISTED_BY_DEFAULT;
     return status == MT_OK ? mt_manifold_list_defects(check, limit) : status;
 }

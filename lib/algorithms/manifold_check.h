@@ -37,6 +37,7 @@ mt_status mt_manifold_find_duplicates(manifold_check *check);
 mt_status mt_manifold_count_loops(manifold_check *check);
 mt_status mt_manifold_scan_vertices(manifold_check *check); /* non-finite ones, bounds */
 mt_status mt_manifold_measure(manifold_check *check);       /* zero-area faces, area, volume */
+mt_status mt_manifold_look_as_welded(manifold_check *check);
 mt_status mt_manifold_list_defects(manifold_check *check, uint64_t defects_per_kind);
 
 #endif

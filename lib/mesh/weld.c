@@ -5,6 +5,8 @@
  * order of their points, so places are numbered by first occurrence.
  * Cost: linear, about 10 ns a corner when coherent and 60 when shuffled. Known failure: points made on purpose to
  * collide under the fixed hash take quadratic time. */
+#include "lib/mesh/point_key.h"
+
 #include <meshtool/weld.h>
 
 #include <string.h>
@@ -16,11 +18,6 @@
 #define CORNERS_A_VERTEX                                                                                               \
     5u /* six in a closed mesh of triangles; guesses the first size of the table, which may grow                       \
         */
-
-/* A point's coordinates as integers that are equal exactly when the points are. */
-typedef struct point_key {
-    uint64_t x, y, z;
-} point_key;
 
 typedef struct slot {
     uint32_t hash;
@@ -42,41 +39,6 @@ typedef struct weld {
     mt_index place_count;
     mt_context *context;
 } weld;
-
-static inline point_key load_key(const char *point, mt_type type)
-{
-    if (type == MT_F32) {
-        uint32_t word[3];
-        memcpy(word, point, sizeof word);
-        for (int i = 0; i < 3; i++) {
-            word[i] = word[i] == UINT32_C(1) << 31 ? 0 : word[i];
-        }
-        return (point_key){word[0], word[1], word[2]};
-    }
-    uint64_t word[3];
-    memcpy(word, point, sizeof word);
-    for (int i = 0; i < 3; i++) {
-        word[i] = word[i] == UINT64_C(1) << 63 ? 0 : word[i];
-    }
-    return (point_key){word[0], word[1], word[2]};
-}
-
-static inline bool same_key(point_key a, point_key b)
-{
-    return ((a.x ^ b.x) | (a.y ^ b.y) | (a.z ^ b.z)) == 0;
-}
-
-/* Doubles that were floats have their low half empty: the high half is folded in before each multiplication. */
-static inline uint64_t mix(uint64_t hash, uint64_t word)
-{
-    hash = (hash ^ word ^ (word >> 32)) * UINT64_C(0x9e3779b97f4a7c15);
-    return hash ^ (hash >> 32);
-}
-
-static inline uint64_t hash_key(point_key key)
-{
-    return mix(mix(mix(0, key.x), key.y), key.z);
-}
 
 /* Welds one run into the front of its own part of `distinct`. `type` is a constant where this is called. */
 static inline mt_index weld_run(const weld *w, mt_index begin, mt_index end, uint32_t *table, mt_type type)

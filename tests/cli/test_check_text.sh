@@ -91,6 +91,12 @@ prints "manifold and closed, consistently oriented; no faces intersect."
 run 0 check-manifold "$folder/through.off" --self-intersections --paint "$folder/through.ply"
 says "brown 1 self-intersection"
 
+# Two triangles that meet in place but share no vertex: as welded they are one surface.
+printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n' >"$folder/seam.off"
+run 0 check-manifold "$folder/seam.off"
+prints "2 vertices are at the place of another. As welded it would still be manifold with boundary, with 4 boundary edges"
+prints "seam.off --weld"
+
 # Several files get a line each, with -v all of it.
 run 1 check-manifold "$folder/cube.off" "$folder/book.off"
 holds "a line a file" test "$(wc -l <"$folder/.out")" = 2

@@ -191,7 +191,14 @@ static void the_check_has_the_keys_of_the_contract(void **state)
     assert_true(json_is_null(json_object_get(object, "genus")));
     assert_true(json_is_null(json_object_get(object, "volume")));
     assert_true(json_is_null(json_object_get(object, "self_intersections")));
-    assert_true(json_is_null(json_object_get(object, "as_welded")));
+    json_t *welded = json_object_get(object, "as_welded");
+    static const char *const welded_keys[] = {
+        "class", "vertices", "boundary_edges", "non_manifold_edges", "non_manifold_vertices", NULL};
+    assert_keys(welded, welded_keys);
+    assert_string_equal(json_string_value(json_object_get(welded, "class")), "non-manifold");
+    assert_int_equal(json_integer_value(json_object_get(welded, "vertices")), 5);
+    assert_int_equal(json_integer_value(json_object_get(welded, "boundary_edges")), 6);
+    assert_int_equal(json_integer_value(json_object_get(welded, "non_manifold_vertices")), 1);
     json_t *defects = json_object_get(object, "defects");
     bool found = false;
     for (size_t i = 0; i < json_array_size(defects); i++) {

@@ -6,6 +6,7 @@
 
 #include <meshtool/edge_pairs.h>
 #include <meshtool/self_intersection.h>
+#include <meshtool/weld.h>
 
 #include <float.h>
 #include <math.h>
@@ -520,6 +521,40 @@ static void self_intersections_are_listed_when_asked_for(void **state)
     assert_true(total > 500);
 }
 
+/* The same as welding a copy and checking that. */
+static void the_welded_mesh_is_told_beside(void **state)
+{
+    (void)state;
+    test_random random = {1066};
+    int joined = 0, differing = 0;
+    for (int i = 0; i < 2000; i++) {
+        mt_context *context = test_context();
+        mt_mesh *mesh = i % 2 ? test_soup(context, &random) : test_patch(context, &random);
+        mt_manifold_options options = {.as_welded = true};
+        mt_manifold_report report, expected;
+        assert_int_equal(mt_check_manifold(context, mesh, &options, &report), MT_OK);
+        assert_true(report.has_as_welded);
+        mt_manifold_class before = report.manifold_class;
+        mt_manifold_welded welded = report.as_welded;
+        mt_index removed = 0;
+        assert_int_equal(mt_mesh_weld(context, mesh, &removed), MT_OK);
+        assert_int_equal(mt_check_manifold(context, mesh, NULL, &expected), MT_OK);
+        assert_false(expected.has_as_welded);
+        assert_int_equal(welded.manifold_class, expected.manifold_class);
+        assert_int_equal(welded.vertex_count, expected.vertex_count);
+        assert_int_equal(welded.boundary_edge_count, expected.defect_counts[MT_DEFECT_BOUNDARY_EDGE]);
+        assert_int_equal(welded.non_manifold_edge_count, expected.defect_counts[MT_DEFECT_NON_MANIFOLD_EDGE]);
+        assert_int_equal(welded.non_manifold_vertex_count, expected.defect_counts[MT_DEFECT_NON_MANIFOLD_VERTEX]);
+        joined += removed > 0;
+        differing += before != expected.manifold_class;
+        mt_manifold_report_release(context, &report);
+        mt_manifold_report_release(context, &expected);
+        mt_mesh_destroy(context, mesh);
+        test_context_end(context);
+    }
+    assert_true(joined > 100 && differing > 10);
+}
+
 static void every_failed_allocation_is_clean(void **state)
 {
     (void)state;
@@ -529,7 +564,7 @@ static void every_failed_allocation_is_clean(void **state)
         mt_mesh *mesh = test_soup(maker, &random);
         mt_context_options options = {.failing_allocation = nth};
         mt_context *context = mt_context_create(&options);
-        mt_manifold_options how = {.self_intersections = nth % 2 == 0};
+        mt_manifold_options how = {.self_intersections = nth % 2 == 0, .as_welded = nth % 3 == 0};
         mt_manifold_report report;
         mt_status status = mt_check_manifold(context, mesh, &how, &report);
         assert_true(status == MT_OK || status == MT_ERROR_OUT_OF_MEMORY);
@@ -557,6 +592,7 @@ int main(void)
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(extremes_are_fast),
         cmocka_unit_test(self_intersections_are_listed_when_asked_for),
+        cmocka_unit_test(the_welded_mesh_is_told_beside),
         cmocka_unit_test(every_failed_allocation_is_clean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

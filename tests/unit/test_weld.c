@@ -56,6 +56,11 @@ static void check_weld(mt_context *context, const float *points, mt_index count)
     for (size_t i = 0; i < 3 * (size_t)count; i++) {
         wide[i] = (double)points[i];
     }
+    bool possible;
+    assert_int_equal(mt_points_may_coincide(context, points, MT_F32, count, &possible), MT_OK);
+    assert_int_equal(possible, places < count);
+    assert_int_equal(mt_points_may_coincide(context, wide, MT_F64, count, &possible), MT_OK);
+    assert_int_equal(possible, places < count);
     assert_int_equal(mt_weld_exact(context, wide, MT_F64, count, wide, numbers, &got), MT_OK); /* in place */
     assert_int_equal(got, places);
     assert_memory_equal(numbers, expected, count * sizeof *numbers);
@@ -144,6 +149,33 @@ static void test_many_points(void **state)
     }
 }
 
+/* Regular coordinates of few bits, none twice; then two that are far apart in the array. */
+static void test_a_grid_coincides_nowhere(void **state)
+{
+    (void)state;
+    mt_context *context = test_context();
+    mt_index count = 64 * 64 * 64;
+    float *points = mt_allocate_array(context, count, 3 * sizeof *points);
+    for (mt_index i = 0; i < count; i++) {
+        points[3 * (size_t)i] = (float)(i % 64);
+        points[3 * (size_t)i + 1] = (float)(i / 64 % 64) / 64;
+        points[3 * (size_t)i + 2] = (float)(i / 64 / 64) * 1024;
+    }
+    bool possible;
+    for (mt_index part = 2; part <= count; part = part < count / 3 ? 3 * part : count + (part == count)) {
+        assert_int_equal(mt_points_may_coincide(context, points, MT_F32, part, &possible), MT_OK);
+        assert_false(possible);
+    }
+    memcpy(points + 3 * (size_t)(count - 2), points + 3, 3 * sizeof *points);
+    assert_int_equal(mt_points_may_coincide(context, points, MT_F32, count, &possible), MT_OK);
+    assert_true(possible);
+    memset(points, 0, count * 3 * sizeof *points);
+    assert_int_equal(mt_points_may_coincide(context, points, MT_F32, count, &possible), MT_OK);
+    assert_true(possible);
+    mt_free(context, points);
+    test_context_end(context);
+}
+
 static void test_missing_memory(void **state)
 {
     (void)state;
@@ -153,7 +185,11 @@ static void test_missing_memory(void **state)
         mt_context *context = mt_context_create(&options);
         mt_index numbers[2], count;
         float distinct[6];
-        mt_status status = mt_weld_exact(context, points, MT_F32, 2, distinct, numbers, &count);
+        bool possible;
+        mt_status status = mt_points_may_coincide(context, points, MT_F32, 2, &possible);
+        if (status == MT_OK) {
+            status = mt_weld_exact(context, points, MT_F32, 2, distinct, numbers, &count);
+        }
         assert_true(status == MT_OK || status == MT_ERROR_OUT_OF_MEMORY);
         assert_int_equal(mt_context_error(context)->status, status);
         test_context_end(context);
@@ -167,8 +203,11 @@ static void test_missing_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small_and_empty), cmocka_unit_test(test_zeros_and_nans),
-        cmocka_unit_test(test_random_points),   cmocka_unit_test(test_many_points),
+        cmocka_unit_test(test_small_and_empty),
+        cmocka_unit_test(test_zeros_and_nans),
+        cmocka_unit_test(test_random_points),
+        cmocka_unit_test(test_many_points),
+        cmocka_unit_test(test_a_grid_coincides_nowhere),
         cmocka_unit_test(test_missing_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -45,7 +45,14 @@ typedef struct mt_defect {
 typedef struct mt_manifold_options {
     uint64_t defects_per_kind; /* how many of each kind are listed; 0: 100; UINT64_MAX: all */
     bool self_intersections;   /* search for them; many times the cost of all the rest */
+    bool as_welded;            /* look beside it at the mesh welded; the mesh itself stays as it is */
 } mt_manifold_options;
+
+/* A mesh after vertices at bit-equal positions (weld.h) became one. */
+typedef struct mt_manifold_welded {
+    mt_manifold_class manifold_class;
+    mt_index vertex_count, boundary_edge_count, non_manifold_edge_count, non_manifold_vertex_count;
+} mt_manifold_welded;
 
 /* Each count is defined in the table of the command line's contract (README, check-manifold). */
 typedef struct mt_manifold_report {
@@ -65,6 +72,8 @@ typedef struct mt_manifold_report {
     bool has_volume;
     double volume;               /* signed */
     bool has_self_intersections; /* whether they were searched for */
+    bool has_as_welded;
+    mt_manifold_welded as_welded;
     size_t defect_list_count;
     mt_defect *defects; /* by kind, in the order of their elements */
     void *storage;      /* memory of the lists */

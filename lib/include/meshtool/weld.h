@@ -21,6 +21,12 @@ extern "C" {
 mt_status mt_weld_exact(mt_context *context, const void *positions, mt_type type, mt_index point_count, void *distinct,
                         mt_index *numbers, mt_index *distinct_count);
 
+/* Whether two of the points may be the same, as above. false is certain; true is wrong for about one set of points in
+ * 2^64 / point_count^2, so it is a reason to weld and no more. Linear, a tenth of the time of welding; holds about 10
+ * bytes a point. MT_ERROR_OUT_OF_MEMORY. */
+mt_status mt_points_may_coincide(mt_context *context, const void *positions, mt_type type, mt_index point_count,
+                                 bool *possible);
+
 /* Makes the vertices of a mesh that are at the same place, as above, one; they are numbered in the order of their
  * first. Nothing else changes: no face is dropped, though some may now name a vertex twice or be given twice. A vertex
  * attribute keeps the first's value where the values at each place are bit-equal, and else moves to the corners,
