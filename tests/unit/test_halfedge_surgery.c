@@ -79,6 +79,67 @@ static void random_operations_keep_the_invariants(void **state)
     }
 }
 
+/* Whether the triangles with the half-edge's tail renamed to its head still make a manifold of the same shape. */
+static bool may_collapse(mt_context *context, const mt_halfedge_mesh *own, mt_index halfedge)
+{
+    static double positions[3 * 64];
+    mt_index faces[4 * 128];
+    mt_index count = 0;
+    mt_index gone = mt_halfedge_tail(own, halfedge), kept = mt_halfedge_head(own, halfedge);
+    for (mt_index face = 0; face < own->face_count; face++) {
+        mt_index h = own->face_halfedge[face], *to = faces + 4 * (size_t)count;
+        to[0] = 3;
+        for (int i = 1; i < 4; i++, h = mt_halfedge_next(own, h)) {
+            mt_index v = mt_halfedge_head(own, h);
+            to[i] = v == gone ? kept : v;
+        }
+        count += to[1] != to[2] && to[2] != to[3] && to[3] != to[1];
+    }
+    mt_mesh *mesh = test_mesh(context, own->vertex_count, positions, count, faces);
+    mt_manifold_report report;
+    assert_int_equal(mt_check_manifold(context, mesh, NULL, &report), MT_OK);
+    mt_index expected = own->face_count - (mt_halfedge_edge_is_boundary(own, halfedge >> 1) ? 1 : 2);
+    bool same = (int64_t)own->vertex_count - 1 - report.edge_count + count == euler(own);
+    bool may = count == expected && same && report.manifold_class != MT_NON_MANIFOLD &&
+               report.defect_counts[MT_DEFECT_DUPLICATE_FACE] == 0 &&
+               report.defect_counts[MT_DEFECT_ISOLATED_VERTEX] == 1;
+    mt_manifold_report_release(context, &report);
+    mt_mesh_destroy(context, mesh);
+    return may;
+}
+
+static void collapse_is_allowed_where_the_face_list_stays_manifold(void **state)
+{
+    (void)state;
+    mt_index counts[2] = {0, 0};
+    for (int which = 0; which < 3; which++) {
+        mt_context *context = test_context();
+        mt_mesh *mesh = starting_mesh(context, which);
+        mt_halfedge_surgery *surgery = begin(context, mesh);
+        test_random random = {3 + (uint64_t)which};
+        for (int i = 0; i < 60; i++) {
+            mt_halfedge_mesh *left = NULL;
+            assert_int_equal(compact(context, surgery, &left), MT_OK);
+            mt_halfedge_surgery_destroy(context, surgery);
+            assert_int_equal(mt_halfedge_surgery_create(context, left, &surgery), MT_OK);
+            for (mt_index h = 0; h < left->halfedge_count; h++) {
+                bool may = mt_halfedge_can_collapse_edge(surgery, h) == MT_SURGERY_ALLOWED;
+                assert_int_equal(may, may_collapse(context, left, h));
+                counts[may]++;
+            }
+            mt_index h = (mt_index)test_random_below(&random, left->halfedge_count);
+            uint64_t kind = test_random_below(&random, 4);
+            kind = kind == 1 && left->vertex_count > 24 ? 2 : kind;
+            assert_int_equal(operate(context, surgery, h, kind), MT_OK);
+            mt_halfedge_destroy(context, left);
+        }
+        mt_halfedge_surgery_destroy(context, surgery);
+        mt_mesh_destroy(context, mesh);
+        test_context_end(context);
+    }
+    assert_true(counts[0] > 1000 && counts[1] > 1000);
+}
+
 static void edits_mix_their_parents(void **state)
 {
     (void)state;
@@ -121,6 +182,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_operations_keep_the_invariants),
+        cmocka_unit_test(collapse_is_allowed_where_the_face_list_stays_manifold),
         cmocka_unit_test(edits_mix_their_parents),
         cmocka_unit_test(a_tetrahedron_is_not_collapsed),
     };
