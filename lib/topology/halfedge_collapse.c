@@ -1,5 +1,6 @@
 /* Edge collapse with the full link condition (Dey, Edelsbrunner, Guha, Nekhayev: Topology preserving edge contraction,
  * 1999); the boundary counts as closed by an imagined vertex. Cost: O(valences + sides of the faces at the tail). */
+#include "lib/topology/edit_entries.h"
 #include "lib/topology/halfedge_edit.h"
 
 static void mark_neighbors(const mt_halfedge_surgery *surgery, mt_index begin, uint8_t mark)
@@ -42,49 +43,39 @@ static bool has_common_face(const mt_halfedge_mesh *own, mt_index halfedge)
     return false;
 }
 
-/* Whether the faces across the two other sides would lie back to back: as many sides, and the same other vertices. */
-static bool leaves_duplicates(const mt_halfedge_mesh *own, mt_index side)
+static mt_index count_sides(const mt_halfedge_mesh *own, mt_index begin)
 {
-    mt_index n = mt_halfedge_next(own, side), p = mt_halfedge_next(own, n);
-    mt_index at = mt_halfedge_next(own, p ^ 1u);
-    mt_index count = 2;
-    if (mt_halfedge_is_boundary(own, n ^ 1u) || mt_halfedge_is_boundary(own, p ^ 1u)) {
-        return false;
-    }
-    while (at != (p ^ 1u)) {
-        at = mt_halfedge_next(own, at);
+    mt_index count = 0, h = begin;
+    do {
         count++;
-    }
-    mt_index other = mt_halfedge_next(own, n ^ 1u), other_count = 2;
-    while (other != (n ^ 1u)) {
-        other = mt_halfedge_next(own, other);
-        other_count++;
-    }
-    if (count != other_count) {
-        return false;
-    }
-    /* Every side of one but those at the collapsed vertices has its twin in the other. */
-    mt_index face = mt_halfedge_face(own, n ^ 1u);
-    mt_index shared = 0;
-    for (at = mt_halfedge_next(own, p ^ 1u); at != (p ^ 1u); at = mt_halfedge_next(own, at)) {
-        shared += mt_halfedge_face(own, at ^ 1u) == face;
-    }
-    return shared + 3 >= count;
+        h = mt_halfedge_next(own, h);
+    } while (h != begin);
+    return count;
 }
 
-static mt_surgery_verdict judge_side(const mt_halfedge_mesh *own, mt_index side)
+/* Whether the faces across the other two sides of a triangle would lie back to back: as many sides, and all but two of
+ * them shared already. */
+static bool leaves_duplicates(const mt_halfedge_mesh *own, mt_index side)
 {
-    if (mt_halfedge_is_boundary(own, side)) {
-        return MT_SURGERY_ALLOWED;
+    mt_index across_b = mt_halfedge_next(own, side) ^ 1u;
+    mt_index across_a = mt_halfedge_next(own, mt_halfedge_next(own, side)) ^ 1u;
+    mt_index face_a = mt_halfedge_face(own, across_a), face_b = mt_halfedge_face(own, across_b);
+    mt_index beyond = mt_halfedge_face(own, side ^ 1u);
+    if (face_a == MT_NONE || face_b == MT_NONE || face_a == face_b || face_a == beyond || face_b == beyond) {
+        return false;
     }
-    if (!mt_halfedge_in_triangle(own, side)) {
-        return MT_SURGERY_NOT_TRIANGLES;
+    mt_index count = count_sides(own, across_a), shared = 0;
+    for (mt_index h = mt_halfedge_next(own, across_a); h != across_a; h = mt_halfedge_next(own, h)) {
+        shared += mt_halfedge_face(own, h ^ 1u) == face_b;
     }
-    mt_index n = mt_halfedge_next(own, side), p = mt_halfedge_next(own, n);
-    if (mt_halfedge_is_boundary(own, n ^ 1u) && mt_halfedge_is_boundary(own, p ^ 1u)) {
-        return MT_SURGERY_LONE_FACE;
-    }
-    return leaves_duplicates(own, side) ? MT_SURGERY_DUPLICATE_FACE : MT_SURGERY_ALLOWED;
+    return shared + 2 == count && count == count_sides(own, across_b);
+}
+
+static bool is_lone_triangle(const mt_halfedge_mesh *own, mt_index side)
+{
+    mt_index next = mt_halfedge_next(own, side), last = mt_halfedge_next(own, next);
+    return mt_halfedge_in_triangle(own, side) && mt_halfedge_is_boundary(own, next ^ 1u) &&
+           mt_halfedge_is_boundary(own, last ^ 1u);
 }
 
 mt_surgery_verdict mt_halfedge_can_collapse_edge(const mt_halfedge_surgery *surgery, mt_index halfedge)
@@ -93,28 +84,68 @@ mt_surgery_verdict mt_halfedge_can_collapse_edge(const mt_halfedge_surgery *surg
     if (!mt_halfedge_is_alive(surgery, halfedge)) {
         return MT_SURGERY_NO_ELEMENT;
     }
-    mt_surgery_verdict verdict = judge_side(own, halfedge);
-    verdict = verdict == MT_SURGERY_ALLOWED ? judge_side(own, halfedge ^ 1u) : verdict;
-    if (verdict != MT_SURGERY_ALLOWED) {
-        return verdict;
+    mt_index twin = halfedge ^ 1u;
+    bool left = mt_halfedge_in_triangle(own, halfedge), right = mt_halfedge_in_triangle(own, twin);
+    if (is_lone_triangle(own, halfedge) || is_lone_triangle(own, twin)) {
+        return MT_SURGERY_LONE_FACE;
     }
-    bool boundary = mt_halfedge_edge_is_boundary(own, halfedge >> 1);
-    if (!boundary && mt_halfedge_vertex_is_boundary(own, mt_halfedge_head(own, halfedge)) &&
+    if ((left && leaves_duplicates(own, halfedge)) || (right && leaves_duplicates(own, twin))) {
+        return MT_SURGERY_DUPLICATE_FACE;
+    }
+    if (!mt_halfedge_edge_is_boundary(own, halfedge >> 1) &&
+        mt_halfedge_vertex_is_boundary(own, mt_halfedge_head(own, halfedge)) &&
         mt_halfedge_vertex_is_boundary(own, mt_halfedge_tail(own, halfedge))) {
         return MT_SURGERY_PINCH;
     }
-    if (count_common_neighbors(surgery, halfedge) != (boundary ? 1u : 2u)) {
+    if (count_common_neighbors(surgery, halfedge) != (mt_index)left + right) {
         return MT_SURGERY_COMMON_NEIGHBOR;
     }
     return has_common_face(own, halfedge) ? MT_SURGERY_COMMON_FACE : MT_SURGERY_ALLOWED;
 }
 
-/* `kept` takes the place of `lost` in its face; `previous` came before it. */
-static void take_place(mt_halfedge_surgery *surgery, mt_index kept, mt_index lost, mt_index previous)
+static uint64_t count_edits(const mt_halfedge_mesh *own, mt_index halfedge)
 {
-    mt_halfedge_mesh *own = &surgery->structure;
+    uint64_t valences = (uint64_t)mt_halfedge_valence(own, mt_halfedge_head(own, halfedge)) +
+                        mt_halfedge_valence(own, mt_halfedge_tail(own, halfedge));
+    return MT_EDIT_COLLAPSE_VERTEX_COUNT + 2 * MT_EDIT_COLLAPSE_SIDE_COUNT +
+           valences * (MT_EDIT_COLLAPSE_EDGE_COUNT + MT_EDIT_COLLAPSE_CORNER_COUNT);
+}
+
+static void log_corners(mt_halfedge_surgery *surgery, const mt_edit_collapse *collapse, mt_index vertex)
+{
+    const mt_halfedge_mesh *own = &surgery->structure;
+    mt_halfedge_ring ring = mt_halfedge_ring_begin_clockwise(own, vertex);
+    for (; mt_halfedge_ring_goes_on(&ring); mt_halfedge_ring_clockwise(own, &ring)) {
+        if (vertex == collapse->gone && ring.neighbor != collapse->kept) {
+            mt_edit_collapse_edge(&surgery->log, collapse, ring.neighbor);
+        }
+        if (ring.face != MT_NONE && ring.face != collapse->left && ring.face != collapse->right) {
+            mt_edit_collapse_corner(&surgery->log, collapse, ring.face, vertex);
+        }
+    }
+}
+
+static void log_collapse(mt_halfedge_surgery *surgery, mt_index halfedge, double weight)
+{
+    const mt_halfedge_mesh *own = &surgery->structure;
+    mt_index twin = halfedge ^ 1u;
+    mt_edit_collapse collapse = {mt_halfedge_head(own, halfedge), mt_halfedge_tail(own, halfedge),
+                                 mt_halfedge_face(own, halfedge), mt_halfedge_face(own, twin), weight};
+    mt_edit_collapse_vertex(&surgery->log, &collapse);
+    log_corners(surgery, &collapse, collapse.gone);
+    log_corners(surgery, &collapse, collapse.kept);
+    if (collapse.left != MT_NONE && !mt_halfedge_in_triangle(own, halfedge)) {
+        mt_edit_collapse_side(&surgery->log, &collapse, collapse.left);
+    }
+    if (collapse.right != MT_NONE && !mt_halfedge_in_triangle(own, twin)) {
+        mt_edit_collapse_side(&surgery->log, &collapse, collapse.right);
+    }
+}
+
+/* `kept` takes the place of `lost` in its face; `previous` came before it. */
+static void take_place(mt_halfedge_mesh *own, mt_index kept, mt_index lost, mt_index previous)
+{
     mt_index face = own->halfedges[lost].face;
-    mt_halfedge_copy_corner(surgery, kept, lost);
     own->halfedges[kept].next = own->halfedges[lost].next;
     own->halfedges[kept].face = face;
     own->halfedges[previous].next = kept;
@@ -123,53 +154,72 @@ static void take_place(mt_halfedge_surgery *surgery, mt_index kept, mt_index los
     }
 }
 
-/* Closes one side; `lost` is the twin of the triangle's side at the tail, `kept` the one at the head. Returns a
- * half-edge of the edge that is left of a triangle, MT_NONE on the boundary. */
-static mt_index close_side(mt_halfedge_surgery *surgery, mt_index side, mt_index kept, mt_index lost, mt_index previous)
+/* One side of the edge. Of a triangle the side at the tail goes, whose twin is `lost`; `kept` is its side at the head.
+ * `previous` comes before `lost`, and where there is no triangle before the edge's side. */
+typedef struct flank {
+    mt_index side, kept, lost, previous;
+} flank;
+
+static flank find_flank(const mt_halfedge_mesh *own, mt_index side, bool tail_first)
+{
+    if (!mt_halfedge_in_triangle(own, side)) {
+        return (flank){side, MT_NONE, MT_NONE, mt_halfedge_previous(own, side)};
+    }
+    mt_index next = mt_halfedge_next(own, side), last = mt_halfedge_next(own, next);
+    mt_index kept = tail_first ? next : last, lost = (tail_first ? last : next) ^ 1u;
+    return (flank){side, kept, lost, mt_halfedge_previous(own, lost)};
+}
+
+static void close_flank(mt_halfedge_surgery *surgery, const flank *at)
 {
     mt_halfedge_mesh *own = &surgery->structure;
-    mt_index face = own->halfedges[side].face;
-    if (face == MT_NONE) {
-        own->halfedges[previous].next = own->halfedges[side].next;
-        return MT_NONE;
+    mt_index face = own->halfedges[at->side].face;
+    if (at->kept != MT_NONE) {
+        own->face_halfedge[face] = MT_NONE;
+        take_place(own, at->kept, at->lost, at->previous);
+        mt_halfedge_delete_edge(surgery, at->lost);
+        return;
     }
-    take_place(surgery, kept, lost, previous);
-    own->face_halfedge[face] = MT_NONE;
-    mt_halfedge_delete_edge(surgery, lost);
-    return kept;
+    own->halfedges[at->previous].next = own->halfedges[at->side].next;
+    if (face != MT_NONE && own->face_halfedge[face] == at->side) {
+        own->face_halfedge[face] = own->halfedges[at->side].next;
+    }
+}
+
+/* What came before a side without a triangle may have gone with the triangle on the other one. */
+static void anchor_flank(mt_halfedge_surgery *surgery, const flank *at)
+{
+    if (at->kept != MT_NONE) {
+        mt_halfedge_anchor(&surgery->structure, at->kept);
+        mt_halfedge_anchor(&surgery->structure, at->kept ^ 1u);
+    } else if (mt_halfedge_is_alive(surgery, at->previous)) {
+        mt_halfedge_anchor(&surgery->structure, at->previous);
+    }
 }
 
 mt_status mt_halfedge_collapse_edge(mt_context *context, mt_halfedge_surgery *surgery, mt_index halfedge, double weight)
 {
-    mt_status status =
-        mt_halfedge_prepare(context, surgery, mt_halfedge_can_collapse_edge(surgery, halfedge), 0, 0, 0, 3);
+    mt_halfedge_mesh *own = &surgery->structure;
+    mt_status status = mt_surgery_expect(context, mt_halfedge_can_collapse_edge(surgery, halfedge), weight);
+    status = status == MT_OK ? mt_halfedge_reserve(context, surgery, 0, 0, 0, count_edits(own, halfedge)) : status;
     if (status != MT_OK) {
         return status;
     }
-    mt_halfedge_mesh *own = &surgery->structure;
-    mt_index h = halfedge, o = h ^ 1u, kept = own->halfedges[h].head, gone = own->halfedges[o].head;
-    bool left = own->halfedges[h].face != MT_NONE, right = own->halfedges[o].face != MT_NONE;
-    mt_index n = own->halfedges[h].next, lost_left = left ? own->halfedges[n].next ^ 1u : MT_NONE;
-    mt_index m = own->halfedges[o].next, kept_right = right ? own->halfedges[m].next : MT_NONE;
-    mt_index previous_left = mt_halfedge_previous(own, left ? lost_left : h);
-    mt_index previous_right = mt_halfedge_previous(own, right ? m ^ 1u : o);
-    mt_edit_log_add(&surgery->log, MT_DOMAIN_VERTEX, kept, kept, gone, weight);
-    mt_index x = o;
+    log_collapse(surgery, halfedge, weight);
+    mt_index twin = halfedge ^ 1u, kept = own->halfedges[halfedge].head, gone = own->halfedges[twin].head;
+    flank left = find_flank(own, halfedge, true), right = find_flank(own, twin, false);
+    mt_index x = twin;
     do {
         mt_index following = mt_halfedge_clockwise(own, x);
         own->halfedges[x].head = kept;
         x = following;
-    } while (x != o);
-    mt_index one = close_side(surgery, h, n, lost_left, previous_left);
-    mt_index two = close_side(surgery, o, kept_right, m ^ 1u, previous_right);
-    mt_halfedge_delete_edge(surgery, h);
+    } while (x != twin);
+    close_flank(surgery, &left);
+    close_flank(surgery, &right);
+    mt_halfedge_delete_edge(surgery, halfedge);
     own->vertex_halfedge[gone] = MT_NONE;
     surgery->vertex_deleted[gone] = 1;
-    mt_index ends[] = {one, one == MT_NONE ? MT_NONE : one ^ 1u, two, two == MT_NONE ? MT_NONE : two ^ 1u};
-    for (int i = 0; i < 4; i++) {
-        if (mt_halfedge_is_alive(surgery, ends[i])) {
-            mt_halfedge_anchor(own, ends[i]);
-        }
-    }
+    anchor_flank(surgery, &left);
+    anchor_flank(surgery, &right);
     return MT_OK;
 }

@@ -4,9 +4,9 @@
 
 #include <meshtool/halfedge_surgery.h>
 
-/* Fails unless the verdict is MT_SURGERY_ALLOWED, else makes room for the new elements and for `edits` in the log. */
-mt_status mt_halfedge_prepare(mt_context *context, mt_halfedge_surgery *surgery, mt_surgery_verdict verdict,
-                              mt_index vertices, mt_index edges, mt_index faces, uint64_t edits);
+/* Makes room for the new elements and for `edits` in the log. */
+mt_status mt_halfedge_reserve(mt_context *context, mt_halfedge_surgery *surgery, mt_index vertices, mt_index edges,
+                              mt_index faces, uint64_t edits);
 
 /* New elements, in room that was made. The edge's first half-edge runs from tail to head; it has no face yet. */
 mt_index mt_halfedge_new_vertex(mt_halfedge_surgery *surgery);
@@ -19,18 +19,22 @@ static inline bool mt_halfedge_is_alive(const mt_halfedge_surgery *surgery, mt_i
     return halfedge < surgery->structure.halfedge_count && surgery->structure.halfedges[halfedge].head != MT_NONE;
 }
 
-static inline bool mt_halfedge_in_triangle(const mt_halfedge_mesh *structure, mt_index h)
+static inline bool mt_halfedge_vertex_is_alive(const mt_halfedge_surgery *surgery, mt_index vertex)
 {
-    return mt_halfedge_next(structure, mt_halfedge_next(structure, mt_halfedge_next(structure, h))) == h;
+    return vertex < surgery->structure.vertex_count && !surgery->vertex_deleted[vertex];
 }
 
-/* The half-edge between two vertices that points to `head`, or MT_NONE. */
-mt_index mt_halfedge_find(const mt_halfedge_mesh *structure, mt_index tail, mt_index head);
+/* Whether there is a face, and it is a triangle. */
+static inline bool mt_halfedge_in_triangle(const mt_halfedge_mesh *structure, mt_index h)
+{
+    return !mt_halfedge_is_boundary(structure, h) &&
+           mt_halfedge_next(structure, mt_halfedge_next(structure, mt_halfedge_next(structure, h))) == h;
+}
+
+/* Links three half-edges to a face that begins with the first. */
+void mt_halfedge_set_triangle(mt_halfedge_mesh *structure, mt_index face, mt_index a, mt_index b, mt_index c);
 
 /* Gives the vertex the boundary half-edge around it, or this one. */
 void mt_halfedge_anchor(mt_halfedge_mesh *structure, mt_index halfedge);
-
-/* The target's corner takes the value of the parent's, or of one beside it where the parent has no face. */
-void mt_halfedge_copy_corner(mt_halfedge_surgery *surgery, mt_index target, mt_index parent);
 
 #endif

@@ -1,22 +1,44 @@
-/* What surgery did to values: each entry says that an element's value becomes (1 - weight) * a + weight * b. Replayed
- * in order over any array, it lets positions and attributes follow. */
+/* What surgery did to the things that lie on a mesh: values on vertices, faces, corners and edges. The log speaks of
+ * numbers that all structures share, a corner is named by its face and its vertex, so one function lets everything
+ * follow whatever the structure (mt_halfedge_surgery_to_mesh and its likes). 40 bytes an entry; a collapse writes one
+ * for each face and edge around its ends. */
 #ifndef MESHTOOL_EDIT_LOG_H
 #define MESHTOOL_EDIT_LOG_H
 
-#include <meshtool/attribute.h>
 #include <meshtool/context.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+/* "mix(a, b)" is (1 - weight) * a + weight * b as the attribute's interpolation says; where values are copied and not
+ * mixed, or one of the two is none, it is the heavier one, a at equal weight. */
+typedef enum mt_edit_kind {
+    MT_EDIT_VERTEX,  /* vertex target = mix(vertex a, vertex b) */
+    MT_EDIT_MERGE,   /* vertex a is deleted, and its wires, points and sharpness pass to vertex target */
+    MT_EDIT_FACE,    /* face target = face a */
+    MT_EDIT_CORNER,  /* corner (target, target_vertex) = mix(corner (a, a_vertex), corner (b, b_vertex)) */
+    MT_EDIT_WEDGE,   /* a face `target` at an end `a_vertex` of a collapsed edge, from b_vertex to target_vertex, with
+                        faces a and b (each may be MT_NONE) beside it: when its corner there has the value that face a has
+                        at that end, corner (target, target_vertex) = mix(corner (a, target_vertex),
+                        corner (a, b_vertex)); else the same with face b; else it keeps its value, wherever the corner
+                        goes. So values continuous across the edge stay so, and seams stay seams. */
+    MT_EDIT_EDGE,    /* the edge of vertices target, target_vertex has the larger of its own value and that of the edge
+                        a, a_vertex */
+    MT_EDIT_NO_EDGE, /* the edge target, target_vertex loses its value */
+} mt_edit_kind;
+
 typedef struct mt_edit {
-    mt_domain domain; /* vertex, face, or corner: then the elements are the structure's half-edges, by their tails */
-    mt_index target, a, b;
-    double weight; /* 0: a alone; 1: b alone */
+    mt_edit_kind kind;
+    mt_index target, target_vertex;
+    mt_index a, a_vertex;
+    mt_index b, b_vertex;
+    double weight;
 } mt_edit;
 
 typedef struct mt_edit_log {
+    mt_index vertex_count, face_count; /* of the structure when the log began */
+    bool is_off;                       /* nothing is recorded; may be set before the first operation */
     uint64_t count, capacity;
     mt_edit *edits;
 } mt_edit_log;
@@ -25,14 +47,8 @@ typedef struct mt_edit_log {
 mt_status mt_edit_log_reserve(mt_context *context, mt_edit_log *log, uint64_t more);
 void mt_edit_log_release(mt_context *context, mt_edit_log *log);
 
-/* Appends; room must have been reserved. */
-void mt_edit_log_add(mt_edit_log *log, mt_domain domain, mt_index target, mt_index a, mt_index b, double weight);
-
-/* Applies the domain's entries to `values`, component_count for each element, old and new ones, the deleted included.
- * MT_INTERPOLATE_NONE copies the heavier parent; MT_INTERPOLATE_UNIT makes what it mixes of unit length where that can
- * be done. O(entries). */
-void mt_edit_log_replay(const mt_edit_log *log, mt_domain domain, mt_interpolation interpolation,
-                        uint32_t component_count, double *values);
+/* Appends, unless the log is off; room must have been reserved. */
+void mt_edit_log_add(mt_edit_log *log, const mt_edit *edit);
 
 #ifdef __cplusplus
 }

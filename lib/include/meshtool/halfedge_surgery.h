@@ -1,6 +1,4 @@
-/* Surgery on the half-edge structure. Elements keep their numbers while one works; what is deleted leaves a gap until
- * mt_halfedge_surgery_compact. Every operation has a predicate; one that is not allowed changes nothing and is
- * MT_ERROR_ARGUMENT; one that runs out of memory changes nothing either. Values follow by the log (edit_log.h). */
+/* Surgery on the half-edge structure; surgery.h says what each operation does and when it is allowed. */
 #ifndef MESHTOOL_HALFEDGE_SURGERY_H
 #define MESHTOOL_HALFEDGE_SURGERY_H
 
@@ -26,30 +24,43 @@ typedef struct mt_halfedge_surgery {
 mt_status mt_halfedge_surgery_create(mt_context *context, const mt_halfedge_mesh *structure, mt_halfedge_surgery **out);
 void mt_halfedge_surgery_destroy(mt_context *context, mt_halfedge_surgery *surgery); /* NULL is allowed */
 
-/* Turns the edge between two triangles counter-clockwise to join their other corners. O(valence). */
+/* The half-edge from tail to head, MT_NONE when there is none or a vertex is deleted or out of range. O(valence). */
+mt_index mt_halfedge_surgery_find(const mt_halfedge_surgery *surgery, mt_index tail, mt_index head);
+
+/* O(valence). */
 mt_surgery_verdict mt_halfedge_can_swap_edge(const mt_halfedge_surgery *surgery, mt_index edge);
 mt_status mt_halfedge_swap_edge(mt_context *context, mt_halfedge_surgery *surgery, mt_index edge);
 
-/* Puts a vertex on the edge, `weight` of the way from the tail of 2 * edge to its head. Triangles beside it are cut in
- * two; other faces gain a side. *vertex, which may be NULL, receives the new vertex. O(sides). */
-mt_surgery_verdict mt_halfedge_can_split_edge(const mt_halfedge_surgery *surgery, mt_index edge);
-mt_status mt_halfedge_split_edge(mt_context *context, mt_halfedge_surgery *surgery, mt_index edge, double weight,
+/* From the half-edge's tail to its head; weight in [0, 1], else MT_ERROR_ARGUMENT. *vertex, which may be NULL, receives
+ * the new vertex. O(sides). */
+mt_surgery_verdict mt_halfedge_can_split_edge(const mt_halfedge_surgery *surgery, mt_index halfedge);
+mt_status mt_halfedge_split_edge(mt_context *context, mt_halfedge_surgery *surgery, mt_index halfedge, double weight,
                                  mt_index *vertex);
 
-/* Moves the half-edge's tail into its head, which goes `weight` of the way to the tail; the triangles beside it vanish.
- * Allowed when the link condition holds, with the boundary closed by an imagined vertex (Dey, Edelsbrunner, Guha,
- * Nekhayev 1999). O(valence + sides around the ends). */
+/* `from` and `to` are half-edges that point to the vertex; one of them may be MT_NONE. *out, which may be NULL,
+ * receives the new vertex, which lies where the old one does. O(valence + sides). */
+mt_surgery_verdict mt_halfedge_can_split_vertex(const mt_halfedge_surgery *surgery, mt_index vertex, mt_index from,
+                                                mt_index to);
+mt_status mt_halfedge_split_vertex(mt_context *context, mt_halfedge_surgery *surgery, mt_index vertex, mt_index from,
+                                   mt_index to, mt_index *out);
+
+/* Moves the half-edge's tail into its head; weight in [0, 1], else MT_ERROR_ARGUMENT. O(valences + sides of the faces
+ * at the tail). */
 mt_surgery_verdict mt_halfedge_can_collapse_edge(const mt_halfedge_surgery *surgery, mt_index halfedge);
 mt_status mt_halfedge_collapse_edge(mt_context *context, mt_halfedge_surgery *surgery, mt_index halfedge,
                                     double weight);
 
-/* Old to new numbers, MT_NONE for what is deleted; edges and half-edges keep their sides. */
-typedef struct mt_surgery_map {
-    mt_index *vertices, *edges, *faces;
-} mt_surgery_map;
-void mt_surgery_map_release(mt_context *context, mt_surgery_map *map);
+/* O(sides). */
+mt_surgery_verdict mt_halfedge_can_remove_face(const mt_halfedge_surgery *surgery, mt_index face);
+mt_status mt_halfedge_remove_face(mt_context *context, mt_halfedge_surgery *surgery, mt_index face);
 
-/* What is left, in its order, as a new structure. On failure *map is empty. O(size). */
+/* `vertices` run counter-clockwise. *face, which may be NULL, receives the new face. O(valences). */
+mt_surgery_verdict mt_halfedge_can_add_face(const mt_halfedge_surgery *surgery, mt_index count,
+                                            const mt_index *vertices);
+mt_status mt_halfedge_add_face(mt_context *context, mt_halfedge_surgery *surgery, mt_index count,
+                               const mt_index *vertices, mt_index *face);
+
+/* What is left, in its order, as a new structure. map may be NULL; on failure it is empty. O(size). */
 mt_status mt_halfedge_surgery_compact(mt_context *context, const mt_halfedge_surgery *surgery, mt_surgery_map *map,
                                       mt_halfedge_mesh **out);
 

@@ -1,0 +1,84 @@
+/* What surgery left, without gaps. */
+#include "lib/topology/halfedge_edit.h"
+
+static mt_status number_elements(mt_context *context, const mt_halfedge_surgery *surgery, mt_surgery_map *map,
+                                 mt_halfedge_mesh *out)
+{
+    const mt_halfedge_mesh *own = &surgery->structure;
+    map->vertex_count = own->vertex_count;
+    map->edge_count = own->halfedge_count / 2;
+    map->face_count = own->face_count;
+    map->vertices = mt_allocate_array(context, own->vertex_count, sizeof(mt_index));
+    map->edges = mt_allocate_array(context, own->halfedge_count / 2, sizeof(mt_index));
+    map->faces = mt_allocate_array(context, own->face_count, sizeof(mt_index));
+    if (!map->vertices || !map->edges || !map->faces) {
+        return mt_context_error(context)->status;
+    }
+    for (mt_index i = 0; i < own->vertex_count; i++) {
+        map->vertices[i] = surgery->vertex_deleted[i] ? MT_NONE : out->vertex_count++;
+    }
+    for (mt_index i = 0; i < own->halfedge_count / 2; i++) {
+        map->edges[i] = own->halfedges[2 * i].head == MT_NONE ? MT_NONE : out->halfedge_count++;
+    }
+    for (mt_index i = 0; i < own->face_count; i++) {
+        map->faces[i] = own->face_halfedge[i] == MT_NONE ? MT_NONE : out->face_count++;
+    }
+    out->halfedge_count *= 2;
+    return MT_OK;
+}
+
+static mt_index renumber(const mt_surgery_map *map, mt_index halfedge)
+{
+    return halfedge == MT_NONE ? MT_NONE : 2 * map->edges[halfedge >> 1] + (halfedge & 1u);
+}
+
+static mt_status copy_elements(mt_context *context, const mt_halfedge_mesh *own, const mt_surgery_map *map,
+                               mt_halfedge_mesh *out)
+{
+    out->halfedges = mt_allocate_array(context, out->halfedge_count, sizeof *out->halfedges);
+    out->vertex_halfedge = mt_allocate_array(context, out->vertex_count, sizeof(mt_index));
+    out->face_halfedge = mt_allocate_array(context, out->face_count, sizeof(mt_index));
+    if (!out->halfedges || !out->vertex_halfedge || !out->face_halfedge) {
+        return mt_context_error(context)->status;
+    }
+    for (mt_index h = 0; h < own->halfedge_count; h++) {
+        mt_halfedge from = own->halfedges[h];
+        if (from.head != MT_NONE) {
+            out->halfedges[renumber(map, h)] = (mt_halfedge){renumber(map, from.next), map->vertices[from.head],
+                                                             from.face == MT_NONE ? MT_NONE : map->faces[from.face]};
+        }
+    }
+    for (mt_index i = 0; i < own->vertex_count; i++) {
+        if (map->vertices[i] != MT_NONE) {
+            out->vertex_halfedge[map->vertices[i]] = renumber(map, own->vertex_halfedge[i]);
+        }
+    }
+    for (mt_index i = 0; i < own->face_count; i++) {
+        if (map->faces[i] != MT_NONE) {
+            out->face_halfedge[map->faces[i]] = renumber(map, own->face_halfedge[i]);
+        }
+    }
+    return MT_OK;
+}
+
+mt_status mt_halfedge_surgery_compact(mt_context *context, const mt_halfedge_surgery *surgery, mt_surgery_map *map,
+                                      mt_halfedge_mesh **out)
+{
+    *out = NULL;
+    mt_surgery_map own = {0};
+    mt_halfedge_mesh *structure = mt_allocate_zeroed(context, sizeof *structure);
+    mt_status status = structure ? number_elements(context, surgery, &own, structure) : MT_ERROR_OUT_OF_MEMORY;
+    status = status == MT_OK ? copy_elements(context, &surgery->structure, &own, structure) : status;
+    if (status != MT_OK) {
+        mt_halfedge_destroy(context, structure);
+        structure = NULL;
+    }
+    if (status != MT_OK || !map) {
+        mt_surgery_map_release(context, &own);
+    }
+    if (map) {
+        *map = own;
+    }
+    *out = structure;
+    return status;
+}

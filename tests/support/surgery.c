@@ -1,0 +1,115 @@
+#include "tests/support/surgery.h"
+#include "tests/support/unit.h"
+
+#include <meshtool/halfedge_surgery.h>
+
+#include <string.h>
+
+/* Half-edges */
+
+static mt_status halfedge_create(mt_context *context, const mt_mesh *mesh, void **out)
+{
+    *out = NULL;
+    mt_halfedge_mesh *structure = NULL;
+    mt_status status = mt_halfedge_create(context, mesh, &structure);
+    if (status == MT_OK) {
+        status = mt_halfedge_surgery_create(context, structure, (mt_halfedge_surgery **)out);
+    }
+    mt_halfedge_destroy(context, structure);
+    return status;
+}
+
+static void halfedge_destroy(mt_context *context, void *surgery)
+{
+    mt_halfedge_surgery_destroy(context, surgery);
+}
+
+static mt_surgery_verdict halfedge_judge(const void *surgery, const test_operation *at)
+{
+    mt_index h = mt_halfedge_surgery_find(surgery, at->a, at->b);
+    switch (at->kind) {
+    case TEST_SWAP_EDGE:
+        return mt_halfedge_can_swap_edge(surgery, h == MT_NONE ? MT_NONE : h / 2);
+    case TEST_SPLIT_EDGE:
+        return mt_halfedge_can_split_edge(surgery, h);
+    case TEST_SPLIT_VERTEX:
+        return mt_halfedge_can_split_vertex(surgery, at->a, mt_halfedge_surgery_find(surgery, at->b, at->a),
+                                            mt_halfedge_surgery_find(surgery, at->c, at->a));
+    case TEST_COLLAPSE_EDGE:
+        return mt_halfedge_can_collapse_edge(surgery, h);
+    case TEST_REMOVE_FACE:
+        return mt_halfedge_can_remove_face(surgery, at->face);
+    default:
+        return mt_halfedge_can_add_face(surgery, at->count, at->vertices);
+    }
+}
+
+static mt_status halfedge_operate(mt_context *context, void *surgery, const test_operation *at)
+{
+    mt_index h = mt_halfedge_surgery_find(surgery, at->a, at->b);
+    switch (at->kind) {
+    case TEST_SWAP_EDGE:
+        return mt_halfedge_swap_edge(context, surgery, h == MT_NONE ? MT_NONE : h / 2);
+    case TEST_SPLIT_EDGE:
+        return mt_halfedge_split_edge(context, surgery, h, at->weight, NULL);
+    case TEST_SPLIT_VERTEX:
+        return mt_halfedge_split_vertex(context, surgery, at->a, mt_halfedge_surgery_find(surgery, at->b, at->a),
+                                        mt_halfedge_surgery_find(surgery, at->c, at->a), NULL);
+    case TEST_COLLAPSE_EDGE:
+        return mt_halfedge_collapse_edge(context, surgery, h, at->weight);
+    case TEST_REMOVE_FACE:
+        return mt_halfedge_remove_face(context, surgery, at->face);
+    default:
+        return mt_halfedge_add_face(context, surgery, at->count, at->vertices, NULL);
+    }
+}
+
+static const mt_edit_log *halfedge_log(const void *surgery)
+{
+    return &((const mt_halfedge_surgery *)surgery)->log;
+}
+
+static mt_status halfedge_faces(mt_context *context, const void *surgery, mt_surgery_map *map, mt_mesh **out)
+{
+    *out = NULL;
+    mt_halfedge_mesh *structure = NULL;
+    mt_mesh *points = NULL;
+    mt_status status = mt_halfedge_surgery_compact(context, surgery, map, &structure);
+    status = status == MT_OK ? mt_halfedge_validate(context, structure) : status;
+    if (status == MT_OK) {
+        points = test_points(context, structure->vertex_count);
+        status = points ? mt_halfedge_to_mesh(context, structure, points, out) : MT_ERROR_OUT_OF_MEMORY;
+    }
+    mt_mesh_destroy(context, points);
+    mt_halfedge_destroy(context, structure);
+    return status;
+}
+
+static uint64_t halfedge_hash(const void *opaque)
+{
+    const mt_halfedge_surgery *surgery = opaque;
+    const mt_halfedge_mesh *own = &surgery->structure;
+    uint64_t hashes[] = {test_hash(own->halfedges, own->halfedge_count * sizeof *own->halfedges),
+                         test_hash(own->vertex_halfedge, own->vertex_count * sizeof(mt_index)),
+                         test_hash(own->face_halfedge, own->face_count * sizeof(mt_index)),
+                         test_hash(surgery->vertex_deleted, own->vertex_count),
+                         test_hash(surgery->marks, own->vertex_count),
+                         surgery->log.count};
+    return test_hash(hashes, sizeof hashes);
+}
+
+mt_mesh *test_points(mt_context *context, mt_index count)
+{
+    mt_mesh *mesh = NULL;
+    const mt_mesh_layout layout = {.vertex_count = count, .face_size = 3, .position_type = MT_F64};
+    if (mt_mesh_create(context, &layout, &mesh) == MT_OK) {
+        memset(mesh->positions, 0, 3 * sizeof(double) * count);
+    }
+    return mesh;
+}
+
+const test_surgeon test_surgeons[] = {
+    {"half-edge", false, halfedge_create, halfedge_destroy, halfedge_judge, halfedge_operate, halfedge_log,
+     halfedge_faces, halfedge_hash},
+};
+const size_t test_surgeon_count = sizeof test_surgeons / sizeof *test_surgeons;
