@@ -3,12 +3,13 @@
  *
  * Sources: Catmull and Clark (1978) for the rules (subdivide_values.c); Dupuy and Vanhoey (2021) for the layout
  * (subdivide_topology.c). Cost: linear in the result; beside it there live at most the level before, with 24 bytes a
- * face for its connectivity, and the edge pairs while level 1 is made. Known failure: creases do not bend the surface
- * yet. */
+ * face for its connectivity, and the edge pairs while level 1 is made. Known failure: values past a sixteenth of the
+ * largest double overflow. */
 #include <meshtool/subdivide.h>
 
 #include "lib/algorithms/subdivide_count.h"
 #include "lib/algorithms/subdivide_crease.h"
+#include "lib/algorithms/subdivide_level.h"
 #include "lib/algorithms/subdivide_rings.h"
 
 #include <meshtool/refusal.h>
@@ -28,7 +29,7 @@ static void release_state(mt_context *context, mt_subdivide_state *state)
     }
     mt_free(context, state->topologies);
     mt_free(context, state->fields);
-    mt_free(context, state->creases);
+    mt_subdivide_sharp_release(context, &state->sharp);
     memset(state, 0, sizeof *state);
 }
 
@@ -112,134 +113,6 @@ static mt_status create_result(mt_context *context, const mt_subdivide_state *st
     return MT_OK;
 }
 
-/* Of a topology the array of the result that its last corners go to. */
-static mt_index *last_corners_of(const mt_subdivide_state *state, mt_index topology, const mt_mesh *result)
-{
-    for (mt_index i = 1; topology && i < state->field_count; i++) {
-        if (state->fields[i].topology == topology) {
-            return result->attributes[state->fields[i].attribute].indices;
-        }
-    }
-    return result->corner_vertices;
-}
-
-/* One level in the making. */
-typedef struct level_plan {
-    mt_subdivide_pass first, second;
-    mt_subdivide_topology *children;
-    void **targets; /* per field its next values */
-    void **owned;   /* those of them that are not the result's */
-} level_plan;
-
-static mt_status create_plan(mt_context *context, const mt_subdivide_state *state, level_plan *plan)
-{
-    size_t loop_count = 2 * (size_t)state->topology_count;
-    for (mt_index i = 0; i < state->field_count; i++) {
-        loop_count += mt_subdivide_values_loop_count(state->fields[i].component_count);
-    }
-    mt_index face_count = state->topologies[0].face_count;
-    plan->children = mt_allocate_array_zeroed(context, state->topology_count, sizeof *plan->children);
-    plan->targets = mt_allocate_array_zeroed(context, state->field_count, sizeof *plan->targets);
-    plan->owned = mt_allocate_array_zeroed(context, state->field_count, sizeof *plan->owned);
-    bool complete = plan->children && plan->targets && plan->owned &&
-                    mt_subdivide_pass_init(context, face_count, loop_count, &plan->first) == MT_OK &&
-                    mt_subdivide_pass_init(context, face_count, loop_count, &plan->second) == MT_OK;
-    return complete ? MT_OK : mt_context_error(context)->status;
-}
-
-/* Of a plan that was carried out only the shell is left. */
-static void release_plan(mt_context *context, const mt_subdivide_state *state, level_plan *plan)
-{
-    for (mt_index i = 0; plan->children && i < state->topology_count; i++) {
-        mt_subdivide_topology_release(context, &plan->children[i]);
-    }
-    for (mt_index i = 0; plan->owned && i < state->field_count; i++) {
-        mt_free(context, plan->owned[i]);
-    }
-    mt_free(context, plan->children);
-    mt_free(context, plan->targets);
-    mt_free(context, plan->owned);
-    mt_subdivide_pass_release(context, &plan->first);
-    mt_subdivide_pass_release(context, &plan->second);
-}
-
-/* The next values of a field: in the result where they can, else in memory of their own. */
-static mt_status plan_field(mt_context *context, const mt_subdivide_state *state, mt_index number,
-                            const mt_mesh *result, level_plan *plan)
-{
-    const mt_subdivide_field *field = &state->fields[number];
-    const mt_subdivide_topology *topology = &state->topologies[field->topology];
-    void *target = result ? mt_subdivide_field_target(state, field, result) : NULL;
-    if (!target) {
-        size_t size = field->component_count * mt_type_size(field->type);
-        target = mt_allocate_array(context, mt_subdivide_child_vertex_count(topology), size);
-        plan->owned[number] = target;
-    }
-    if (!target) {
-        return mt_context_error(context)->status;
-    }
-    plan->targets[number] = target;
-    mt_subdivide_values_plan(topology, field->rule, field->type, field->component_count, field->values, target,
-                             &plan->first, &plan->second);
-    return MT_OK;
-}
-
-static mt_status plan_topology(mt_context *context, const mt_subdivide_state *state, mt_index number,
-                               const mt_mesh *result, level_plan *plan)
-{
-    mt_subdivide_topology *topology = &state->topologies[number], *child = &plan->children[number];
-    mt_index *corners = result ? last_corners_of(state, number, result)
-                               : mt_allocate_array(context, 4 * (uint64_t)topology->corner_count, sizeof *corners);
-    if (!corners) {
-        return mt_context_error(context)->status;
-    }
-    mt_status status = mt_subdivide_topology_plan(context, topology, corners, result != NULL, child, &plan->second);
-    if (!result) {
-        child->owned[3] = corners;
-    }
-    return status;
-}
-
-/* Puts the next level in the place of this one. */
-static void advance_state(mt_context *context, mt_subdivide_state *state, level_plan *plan)
-{
-    for (mt_index i = 0; i < state->field_count; i++) {
-        mt_free(context, state->fields[i].owned);
-        state->fields[i].owned = plan->owned[i];
-        state->fields[i].values = plan->targets[i];
-        plan->owned[i] = NULL;
-    }
-    for (mt_index i = 0; i < state->topology_count; i++) {
-        mt_subdivide_topology_release(context, &state->topologies[i]);
-    }
-    mt_free(context, state->topologies);
-    state->topologies = plan->children;
-    plan->children = NULL;
-}
-
-/* All of one level; with `result` the last one. */
-static mt_status refine_level(mt_context *context, mt_subdivide_state *state, const mt_mesh *result)
-{
-    level_plan plan = {0};
-    mt_status status = create_plan(context, state, &plan);
-    for (mt_index i = 0; status == MT_OK && i < state->topology_count; i++) {
-        status = plan_topology(context, state, i, result, &plan);
-    }
-    for (mt_index i = 0; status == MT_OK && i < state->field_count; i++) {
-        status = plan_field(context, state, i, result, &plan);
-    }
-    if (status == MT_OK) {
-        status = mt_subdivide_creases_refine(context, state);
-    }
-    if (status == MT_OK) {
-        mt_subdivide_pass_run(context, &plan.first);
-        mt_subdivide_pass_run(context, &plan.second);
-        advance_state(context, state, &plan);
-    }
-    release_plan(context, state, &plan);
-    return status;
-}
-
 static const char *level_name(unsigned level)
 {
     static const char names[MT_SUBDIVIDE_LEVEL_LIMIT + 1][9] = {
@@ -264,7 +137,7 @@ static mt_status refine_levels(mt_context *context, mt_subdivide_state *state, u
             status = create_result(context, state, result);
         }
         if (status == MT_OK) {
-            status = refine_level(context, state, *result);
+            status = mt_subdivide_level(context, state, *result);
         }
         mt_part_end(context, part);
     }
@@ -286,17 +159,11 @@ static mt_status finish_result(mt_context *context, mt_subdivide_state *state, u
                             labels->face_labels);
     }
     mt_subdivide_attributes_finish(context, state, level_count, result);
-    return mt_subdivide_sharpness_finish(context, state, level_count, result);
+    return mt_subdivide_creases_finish(context, state, level_count, result);
 }
 
 static void warn_of_limits(mt_context *context, const mt_mesh *mesh)
 {
-    if (mesh->crease_count || mesh->sharp_vertex_count) {
-        mt_warn(context,
-                "the surface is smooth across the %u creases and %u sharp vertices: their sharpness is passed on, "
-                "less 1 a level, but not followed yet",
-                mesh->crease_count, mesh->sharp_vertex_count);
-    }
     if (mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX) ||
         mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_CORNER)) {
         mt_warn(context, "normals were interpolated from the coarse mesh's, and are not quite those of the "
@@ -305,13 +172,14 @@ static void warn_of_limits(mt_context *context, const mt_mesh *mesh)
 }
 
 static mt_status subdivide_paired(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
-                                  unsigned level_count, mt_mesh **out)
+                                  const mt_subdivide_options *settings, mt_mesh **out)
 {
+    unsigned level_count = settings->level_count;
     mt_status status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
     if (status != MT_OK) {
         return status;
     }
-    mt_subdivide_state state = {.mesh = mesh};
+    mt_subdivide_state state = {.mesh = mesh, .settings = *settings};
     mt_mesh *result = NULL;
     status = begin_state(context, pairs, level_count, &state);
     if (status == MT_OK) {
@@ -343,11 +211,13 @@ static mt_status check_corners(mt_context *context, const mt_mesh *mesh, unsigne
 
 mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdivide_options *options, mt_mesh **out)
 {
-    unsigned level_count = options && options->level_count ? options->level_count : 1;
+    mt_subdivide_options settings = options ? *options : (mt_subdivide_options){0};
     *out = NULL;
-    if (options && options->no_levels) {
+    if (settings.no_levels) {
         return mt_mesh_copy(context, mesh, out);
     }
+    settings.level_count += settings.level_count == 0;
+    unsigned level_count = settings.level_count;
     if (level_count > MT_SUBDIVIDE_LEVEL_LIMIT) {
         return mt_fail(context, MT_ERROR_ARGUMENT, "%u levels are more than the %u that can be asked for", level_count,
                        MT_SUBDIVIDE_LEVEL_LIMIT);
@@ -359,7 +229,7 @@ mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdiv
     mt_edge_pairs *pairs;
     status = mt_edge_pairs_create(context, mesh, &pairs);
     if (status == MT_OK) {
-        status = subdivide_paired(context, mesh, pairs, level_count, out);
+        status = subdivide_paired(context, mesh, pairs, &settings, out);
         mt_edge_pairs_destroy(context, pairs);
     }
     return status;

@@ -1,17 +1,14 @@
-/* Sharpness from level to level. */
+/* The sharpness that a subdivision begins with, and what is left of it at the end. */
 #ifndef LIB_ALGORITHMS_SUBDIVIDE_CREASE_H
 #define LIB_ALGORITHMS_SUBDIVIDE_CREASE_H
 
 #include "lib/algorithms/subdivide_field.h"
 
-/* Finds the mesh's creases on topologies[0], of level 0. */
+/* Finds all that is sharp on topologies[0], of level 0: by the mesh, then the angle, then the list of the options. */
 mt_status mt_subdivide_creases_create(mt_context *context, mt_subdivide_state *state);
 
-/* Replaces the state's creases by those of the next level; topologies[0] is still this one's. */
-mt_status mt_subdivide_creases_refine(mt_context *context, mt_subdivide_state *state);
-
-/* Adds the sharpness that is left after level_count levels to the result.  */
-mt_status mt_subdivide_sharpness_finish(mt_context *context, const mt_subdivide_state *state, unsigned level_count,
-                                        mt_mesh *result);
+/* Adds the sharpness that is left after level_count levels to the result, whose corners are topologies[0]'s. */
+mt_status mt_subdivide_creases_finish(mt_context *context, const mt_subdivide_state *state, unsigned level_count,
+                                      mt_mesh *result);
 
 #endif

@@ -2,7 +2,10 @@
 #ifndef LIB_ALGORITHMS_SUBDIVIDE_FIELD_H
 #define LIB_ALGORITHMS_SUBDIVIDE_FIELD_H
 
+#include "lib/algorithms/subdivide_sharp.h"
 #include "lib/algorithms/subdivide_values.h"
+
+#include <meshtool/subdivide.h>
 
 typedef struct mt_subdivide_field {
     mt_index attribute; /* its number in the mesh, MT_NONE for the positions */
@@ -14,21 +17,15 @@ typedef struct mt_subdivide_field {
     void *owned; /* the values when they are not the mesh's or the result's */
 } mt_subdivide_field;
 
-/* A crease of the level in work, and a side on it: MT_NONE where no face has that edge. */
-typedef struct mt_subdivide_crease {
-    mt_edge_value edge;
-    mt_index side;
-} mt_subdivide_crease;
-
 /* What one subdivision holds from level to level. */
 typedef struct mt_subdivide_state {
     const mt_mesh *mesh;
     mt_index topology_count;
     mt_subdivide_topology *topologies; /* 0: of the vertices; then one for each corner attribute that is mixed */
     mt_index field_count;
-    mt_subdivide_field *fields; /* 0: the positions */
-    mt_index crease_count;
-    mt_subdivide_crease *creases;
+    mt_subdivide_field *fields;    /* 0: the positions */
+    mt_subdivide_options settings; /* with the mesh's tags where nothing was asked for; level_count at least 1 */
+    mt_subdivide_sharp sharp;
 } mt_subdivide_state;
 
 /* Makes the topologies of the corner attributes and all fields; topologies[0] must stand. */

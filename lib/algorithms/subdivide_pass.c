@@ -45,5 +45,7 @@ static void run_blocks(void *user, uint64_t begin, uint64_t end)
 
 void mt_subdivide_pass_run(mt_context *context, mt_subdivide_pass *pass)
 {
-    mt_parallel_for(context, block_count(pass), 1, run_blocks, pass);
+    if (pass->loop_count) {
+        mt_parallel_for(context, block_count(pass), 1, run_blocks, pass);
+    }
 }

@@ -65,6 +65,10 @@ typedef struct mt_subdivide_loop {
     size_t size;   /* bytes of a value */
     bool linear;
 
+    /* Patches (subdivide_patch.c) */
+    const void *patches;
+    const uint8_t *skipped;
+
     /* Connectivity of the next level (subdivide_topology.c); but the first NULL on the last level */
     mt_index *child_vertices, *child_twins, *child_ranks;
     mt_index *child_vertex_corners; /* made at level 1 alone */

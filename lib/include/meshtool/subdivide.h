@@ -13,10 +13,27 @@ extern "C" {
 
 #define MT_SUBDIVIDE_LEVEL_LIMIT 31
 
+/* In each of these 0 is: as the mesh asks by its tags (MT_TAG_*), and where it has none, the first that follows. */
+typedef enum mt_subdivide_boundary {
+    MT_SUBDIVIDE_BOUNDARY_AS_TAGGED,
+    MT_SUBDIVIDE_BOUNDARY_SMOOTH,  /* boundaries are cubic B-splines: OpenSubdiv's "edge only" */
+    MT_SUBDIVIDE_BOUNDARY_CORNERS, /* the same, and vertices with one face stay: "edge and corner" */
+    MT_SUBDIVIDE_BOUNDARY_NONE     /* faces at boundary vertices become holes, unless all boundary edges there are
+                                      infinitely sharp by tag: "none" */
+} mt_subdivide_boundary;
+
+typedef enum mt_subdivide_crease_method {
+    MT_SUBDIVIDE_CREASES_AS_TAGGED,
+    MT_SUBDIVIDE_CREASES_NORMAL, /* sharpness falls by 1 a level */
+    MT_SUBDIVIDE_CREASES_CHAIKIN /* to 3/4 of its own and 1/4 of the mean of the others at the vertex, less 1 */
+} mt_subdivide_crease_method;
+
 /* All zeros means the defaults. */
 typedef struct mt_subdivide_options {
     unsigned level_count; /* 0: 1 level; at most MT_SUBDIVIDE_LEVEL_LIMIT, else MT_ERROR_ARGUMENT */
     bool no_levels;       /* really 0 levels: a copy, unchecked */
+    mt_subdivide_boundary boundary;
+    mt_subdivide_crease_method crease_method;
 } mt_subdivide_options;
 
 /* Sizes of a level, in closed form from the mesh. */
@@ -45,10 +62,10 @@ mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_
  *              its values are numbered as vertices are; one without indices gets them. Corners that have no value
  *              make their face pass none on. Integers of generic meaning are copied from the old corner
  *   normals    by the same rules, then made unit: they are carried, not computed anew, and a warning says so
- *   creases, sharp vertices    passed on to the halves of their edges less 1 a level (10 and more: unchanged; 0 and
- *              less: dropped), but the surface does not follow them yet, and a warning says so
- * Integers are computed as floats over all levels and rounded once. Values are stored in the mesh's precision at each
- * level and computed in double.
+ *   creases, sharp vertices    as OpenSubdiv 3.5 follows them: an edge or vertex of sharpness s stays sharp for s
+ * levels, 10 and more for ever, and blends with the smooth rule when less than 1 is left. Boundary edges are infinitely
+ * sharp. What is left of the sharpness is passed on to the halves of the edges Integers are computed as floats over all
+ * levels and rounded once. Values are stored in the mesh's precision at each level and computed in double.
  *
  * The same bytes for any number of threads. Renumbering or turning faces permutes the result and changes no bit of
  * it; mirrored input gives mirrored output. Memory: the result, and while the last level is made about as much again

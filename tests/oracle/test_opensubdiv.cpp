@@ -1,0 +1,310 @@
+// Catmull-Clark beside OpenSubdiv's Far: every rule by a named case, at levels 1 to 4, in both precisions.
+#include "tests/oracle/mesh_files.hpp"
+#include "tests/oracle/opensubdiv.hpp"
+
+#include <functional>
+#include <random>
+
+namespace
+{
+
+Tally tally;
+constexpr double tolerance_f64 = 1e-12, tolerance_f32 = 1e-6;
+// Far adds sharpnesses in single precision, in an order of its own: where those sums round, weights differ by as much.
+constexpr double tolerance_of_rounded_sums = 1e-7;
+constexpr unsigned level_count = 4;
+
+// A cage in the making, which becomes a mesh.
+struct Cage {
+    std::vector<std::array<double, 3>> points;
+    std::vector<std::vector<mt_index>> faces;
+    std::vector<mt_edge_value> creases;
+    std::vector<mt_vertex_value> corners;
+    std::vector<std::array<double, 2>> uvs;
+    std::vector<mt_index> uv_indices; // per corner; empty: no UVs
+    mt_subdivide_options options = {};
+};
+
+void fill(mt_context *context, mt_mesh *mesh, const Cage &cage)
+{
+    mt_index corner = 0;
+    for (mt_index v = 0; v < mesh->vertex_count; v++) {
+        mt_mesh_set_position(mesh, v, mt_vec3_make(cage.points[v][0], cage.points[v][1], cage.points[v][2]));
+    }
+    for (mt_index f = 0; f < mesh->face_count; f++) {
+        for (mt_index v : cage.faces[f]) {
+            mesh->corner_vertices[corner++] = v;
+        }
+        mesh->face_offsets[f + 1] = corner;
+    }
+    mesh->creases =
+        static_cast<mt_edge_value *>(mt_allocate_array(context, cage.creases.size(), sizeof(mt_edge_value)));
+    mesh->sharp_vertices =
+        static_cast<mt_vertex_value *>(mt_allocate_array(context, cage.corners.size(), sizeof(mt_vertex_value)));
+    mesh->crease_count = static_cast<mt_index>(cage.creases.size());
+    mesh->sharp_vertex_count = static_cast<mt_index>(cage.corners.size());
+    std::copy(cage.creases.begin(), cage.creases.end(), mesh->creases);
+    std::copy(cage.corners.begin(), cage.corners.end(), mesh->sharp_vertices);
+}
+
+void add_uvs(mt_context *context, mt_mesh *mesh, const Cage &cage, mt_type type)
+{
+    mt_attribute_layout layout{};
+    layout.semantic = MT_SEMANTIC_UV;
+    layout.domain = MT_DOMAIN_CORNER;
+    layout.type = type;
+    layout.component_count = 2;
+    layout.value_count = cage.uvs.size();
+    layout.indexed = true;
+    mt_attribute *uv = nullptr;
+    if (mt_mesh_add_attribute(context, mesh, &layout, &uv) != MT_OK) {
+        std::abort();
+    }
+    for (mt_index value = 0; value < uv->value_count; value++) {
+        mt_attribute_set(uv, value, 0, cage.uvs[value][0]);
+        mt_attribute_set(uv, value, 1, cage.uvs[value][1]);
+    }
+    std::copy(cage.uv_indices.begin(), cage.uv_indices.end(), uv->indices);
+}
+
+mt_mesh *mesh_of(mt_context *context, const Cage &cage, mt_type type)
+{
+    mt_mesh_layout layout{};
+    layout.vertex_count = cage.points.size();
+    layout.face_count = cage.faces.size();
+    for (const auto &face : cage.faces) {
+        layout.corner_count += face.size();
+    }
+    layout.position_type = type;
+    mt_mesh *mesh = nullptr;
+    if (mt_mesh_create(context, &layout, &mesh) != MT_OK) {
+        std::abort();
+    }
+    fill(context, mesh, cage);
+    if (!cage.uv_indices.empty()) {
+        add_uvs(context, mesh, cage, type);
+    }
+    mt_mesh_compact_faces(context, mesh);
+    return mesh;
+}
+
+// Refines the mesh to each level at once, and follows Far's.
+void compare(mt_context *context, const std::string &name, const mt_mesh *mesh, mt_subdivide_options options,
+             unsigned levels, double tolerance)
+{
+    osd::Reference reference(mesh, osd::sdc_options(options), levels);
+    if (!reference.works()) {
+        std::printf("skipped %s: OpenSubdiv refuses it\n", name.c_str());
+        return;
+    }
+    osd::Match match = osd::first_match(mesh);
+    mt_mesh *before = nullptr;
+    for (unsigned level = 1; level <= levels; level++) {
+        options.level_count = level;
+        mt_mesh *refined = nullptr;
+        if (mt_subdivide(context, mesh, &options, &refined) != MT_OK) {
+            tally.expect(false, name + ": " + mt_context_error(context)->message);
+            mt_context_clear_error(context);
+            break;
+        }
+        match = osd::next_match(reference.topology(), int(level), before ? before : mesh, match, refined);
+        osd::Difference difference = osd::difference_at(reference, int(level), refined, match);
+        std::string label = name + ", level " + std::to_string(level);
+        tally.expect(difference.position <= tolerance,
+                     label + ": positions " + std::to_string(difference.position / tolerance) + " tolerances apart");
+        if (!reference.uvs.empty()) {
+            tally.expect(difference.uv <= tolerance,
+                         label + ": UVs " + std::to_string(difference.uv / tolerance) + " tolerances apart");
+        }
+        mt_mesh_destroy(context, before);
+        before = refined;
+    }
+    mt_mesh_destroy(context, before);
+}
+
+void compare(mt_context *context, const std::string &name, const Cage &cage, unsigned levels = level_count,
+             double tolerance = tolerance_f64)
+{
+    mt_mesh *wide = mesh_of(context, cage, MT_F64), *narrow = mesh_of(context, cage, MT_F32);
+    compare(context, name, wide, cage.options, levels, tolerance);
+    compare(context, name + ", f32", narrow, cage.options, levels, tolerance_f32);
+    mt_mesh_destroy(context, narrow);
+    mt_mesh_destroy(context, wide);
+}
+
+using Random = std::mt19937_64;
+
+double unit(Random &random)
+{
+    return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+Cage cube()
+{
+    Cage cage;
+    for (int i = 0; i < 8; i++) {
+        cage.points.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
+    }
+    cage.faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    return cage;
+}
+
+// A grid of columns x rows cells, rolled to a torus when closed; cells are quads, pairs of triangles, or joined with
+// the next to a hexagon.
+Cage grid(Random &random, mt_index columns, mt_index rows, bool closed)
+{
+    Cage cage;
+    mt_index width = closed ? columns : columns + 1, height = closed ? rows : rows + 1;
+    auto at = [&](mt_index column, mt_index row) { return row % height * width + column % width; };
+    for (mt_index i = 0; i < width * height; i++) {
+        double u = double(i % width) / width, v = double(i / width) / height;
+        double bend = closed ? std::cos(2 * MT_PI * u) * (2 + std::cos(2 * MT_PI * v)) : 3 * u;
+        double turn = closed ? std::sin(2 * MT_PI * u) * (2 + std::cos(2 * MT_PI * v)) : 3 * v;
+        double lift = closed ? std::sin(2 * MT_PI * v) : u * v;
+        cage.points.push_back({bend + 0.2 * unit(random), turn + 0.2 * unit(random), lift + 0.2 * unit(random)});
+    }
+    for (mt_index row = 0; row < rows; row++) {
+        for (mt_index column = 0; column < columns; column++) {
+            mt_index a = at(column, row), b = at(column + 1, row), c = at(column + 1, row + 1), d = at(column, row + 1);
+            std::uint64_t kind = random() % 5;
+            if (kind == 0) {
+                cage.faces.push_back({a, b, c});
+                cage.faces.push_back({a, c, d});
+            } else if (kind == 1 && column + 1 < columns) {
+                cage.faces.push_back({a, b, at(column + 2, row), at(column + 2, row + 1), c, d});
+                column++;
+            } else {
+                cage.faces.push_back({a, b, c, d});
+            }
+        }
+    }
+    return cage;
+}
+
+// A hub of some valence with a rim; open: one spoke is a slit.
+Cage fan(Random &random, mt_index valence, bool closed)
+{
+    Cage cage;
+    mt_index rim = closed ? valence : valence + 1;
+    cage.points.push_back({0, 0, 0.5});
+    for (mt_index i = 0; i < rim; i++) {
+        double angle = 2 * MT_PI * i / (valence + 1);
+        double radius = 1 + 0.1 * unit(random);
+        cage.points.push_back({radius * std::cos(angle), radius * std::sin(angle), 0.1 * unit(random)});
+    }
+    for (mt_index i = 0; i < valence; i++) {
+        cage.faces.push_back({0, 1 + i, 1 + (i + 1) % rim});
+    }
+    return cage;
+}
+
+// Creases on a share of the edges and corners on a share of the vertices, with sharpness from a list.
+void sharpen(Random &random, Cage &cage, double share, const std::vector<double> &values)
+{
+    for (const auto &face : cage.faces) {
+        for (std::size_t i = 0; i < face.size(); i++) {
+            if (unit(random) < share) {
+                cage.creases.push_back({face[i], face[(i + 1) % face.size()], values[random() % values.size()]});
+            }
+        }
+    }
+    for (mt_index v = 0; v < cage.points.size(); v++) {
+        if (unit(random) < share / 3) {
+            cage.corners.push_back({v, values[random() % values.size()]});
+        }
+    }
+}
+
+// A crease along the first row of a grid's vertices, as far as `length`.
+void crease_along(Cage &cage, const std::vector<mt_index> &chain, double sharpness)
+{
+    for (std::size_t i = 0; i + 1 < chain.size(); i++) {
+        cage.creases.push_back({chain[i], chain[i + 1], sharpness});
+    }
+}
+
+const std::vector<double> sharpnesses = {0.5, 1, 1.5, 2.5, 10};
+
+void compare_smooth(mt_context *context)
+{
+    Random random(1);
+    compare(context, "cube", cube());
+    for (int i = 0; i < 6; i++) {
+        compare(context, "random n-gons, closed " + std::to_string(i), grid(random, 4 + i % 3, 3 + i % 4, true));
+        compare(context, "random n-gons, open " + std::to_string(i), grid(random, 4 + i % 3, 3 + i % 4, false));
+    }
+    for (mt_index valence : {3, 4, 5, 6, 7, 12, 50, 1000}) {
+        compare(context, "hub of " + std::to_string(valence), fan(random, valence, true), valence > 100 ? 2 : 4);
+        compare(context, "slit hub of " + std::to_string(valence), fan(random, valence, false), valence > 100 ? 2 : 4);
+    }
+}
+
+void compare_creases(mt_context *context, mt_subdivide_crease_method method, const std::string &kind)
+{
+    Random random(2);
+    for (double sharpness : sharpnesses) {
+        std::string label = kind + " of sharpness " + std::to_string(sharpness);
+        Cage cage = cube();
+        cage.options.crease_method = method;
+        sharpen(random, cage, 1, {sharpness});
+        cage.corners.clear();
+        compare(context, "cube with every edge sharp, " + label, cage);
+        cage.creases.clear();
+        crease_along(cage, {0, 1, 3, 2, 0}, sharpness);
+        compare(context, "cube with a sharp lid, " + label, cage);
+        cage.creases.clear();
+        crease_along(cage, {0, 1}, sharpness);
+        compare(context, "darts, " + label, cage);
+        cage.creases.clear();
+        cage.corners = {{0, sharpness}, {5, sharpness}};
+        compare(context, "corners, " + label, cage);
+    }
+    for (int i = 0; i < 24; i++) {
+        Cage cage = grid(random, 5, 4, i % 2 == 0);
+        cage.options.crease_method = method;
+        cage.options.boundary = i % 3 ? MT_SUBDIVIDE_BOUNDARY_SMOOTH : MT_SUBDIVIDE_BOUNDARY_CORNERS;
+        bool exact = i % 4 < 2;
+        sharpen(random, cage, i < 12 ? 0.12 : 0.4, exact ? sharpnesses : std::vector<double>{0.3, 0.7, 1.1, 2.2, 3.9});
+        compare(context, "random " + kind + " " + std::to_string(i), cage, level_count,
+                exact ? tolerance_f64 : tolerance_of_rounded_sums);
+    }
+    for (mt_index valence : {3, 5, 50, 1000}) {
+        Cage cage = fan(random, valence, valence != 5);
+        cage.options.crease_method = method;
+        sharpen(random, cage, 0.2, sharpnesses);
+        compare(context, "hub of " + std::to_string(valence) + " with " + kind, cage, valence > 100 ? 2 : 4);
+    }
+}
+
+void compare_boundaries(mt_context *context)
+{
+    Random random(3);
+    Cage quad;
+    quad.points = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 4}};
+    quad.faces = {{0, 1, 2, 3}};
+    for (auto boundary : {MT_SUBDIVIDE_BOUNDARY_SMOOTH, MT_SUBDIVIDE_BOUNDARY_CORNERS}) {
+        std::string kind = boundary == MT_SUBDIVIDE_BOUNDARY_SMOOTH ? "smooth boundary" : "boundary with corners";
+        quad.options.boundary = boundary;
+        compare(context, "quad, " + kind, quad);
+        Cage cage = grid(random, 4, 4, false);
+        cage.options.boundary = boundary;
+        compare(context, "sheet, " + kind, cage);
+        sharpen(random, cage, 0.3, sharpnesses);
+        compare(context, "creased sheet, " + kind, cage);
+    }
+}
+
+} // namespace
+
+int main()
+{
+    mt_context_options options{};
+    options.thread_count = 1;
+    mt_context *context = mt_context_create(&options);
+    compare_smooth(context);
+    compare_creases(context, MT_SUBDIVIDE_CREASES_NORMAL, "creases");
+    compare_creases(context, MT_SUBDIVIDE_CREASES_CHAIKIN, "Chaikin creases");
+    compare_boundaries(context);
+    mt_context_destroy(context);
+    return tally.conclude();
+}
