@@ -53,22 +53,24 @@ static mt_index count_sides(const mt_halfedge_mesh *own, mt_index begin)
     return count;
 }
 
-/* Whether the faces across the other two sides of a triangle would lie back to back: as many sides, and all but two of
- * them shared already. */
+/* Whether the faces across the other two sides of a triangle would lie back to back: as many sides, and all of them
+ * shared but those at the edge. */
 static bool leaves_duplicates(const mt_halfedge_mesh *own, mt_index side)
 {
     mt_index across_b = mt_halfedge_next(own, side) ^ 1u;
     mt_index across_a = mt_halfedge_next(own, mt_halfedge_next(own, side)) ^ 1u;
     mt_index face_a = mt_halfedge_face(own, across_a), face_b = mt_halfedge_face(own, across_b);
     mt_index beyond = mt_halfedge_face(own, side ^ 1u);
-    if (face_a == MT_NONE || face_b == MT_NONE || face_a == face_b || face_a == beyond || face_b == beyond) {
+    if (face_a == MT_NONE || face_b == MT_NONE || face_a == face_b) {
         return false;
     }
-    mt_index count = count_sides(own, across_a), shared = 0;
+    mt_index count_a = count_sides(own, across_a) - (face_a == beyond);
+    mt_index count_b = count_sides(own, across_b) - (face_b == beyond);
+    mt_index shared = face_a == beyond || face_b == beyond ? 1 : 2;
     for (mt_index h = mt_halfedge_next(own, across_a); h != across_a; h = mt_halfedge_next(own, h)) {
         shared += mt_halfedge_face(own, h ^ 1u) == face_b;
     }
-    return shared + 2 == count && count == count_sides(own, across_b);
+    return shared >= count_a && count_a == count_b;
 }
 
 static bool is_lone_triangle(const mt_halfedge_mesh *own, mt_index side)

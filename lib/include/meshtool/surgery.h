@@ -21,9 +21,10 @@
  *   a. Triangles beside the edge are deleted, other faces there lose a side. Allowed where the link condition holds,
  *   with the boundary closed by an imagined vertex (Dey, Edelsbrunner, Guha, Nekhayev: Topology preserving edge
  *   contraction, 1999). NO_ELEMENT; LONE_FACE (a triangle beside the edge has no other neighbour); DUPLICATE_FACE (for
- *   a triangle (a b c) beside the edge: F, across a c, and G, across b c, are faces different from each other and from
- *   both beside the edge, both have n sides, and n - 2 sides of F lie in G too); PINCH (both ends, but not the edge, on
- *   the boundary); COMMON_NEIGHBOR (more or fewer neighbours of both ends than triangles beside the edge); COMMON_FACE.
+ *   a triangle (a b c) beside the edge: F, across a c, and G, across b c, are two faces that will have n sides each,
+ *   and n - 2 sides of F lie in G too, or n - 1 if one of the two is the other face beside the edge); PINCH (both ends,
+ *   but not the edge, on the boundary); COMMON_NEIGHBOR (more or fewer neighbours of both ends than triangles beside
+ *   the edge); COMMON_FACE (a face that is not beside the edge names both ends).
  * - Remove face: edges that lose their last face go with it. NO_ELEMENT; PINCH (two fans would remain at a vertex: it
  *   lies on the boundary, and both of the face's sides there have another face).
  * - Add face over existing vertices, isolated ones too. NOT_A_FACE (fewer than three); NO_ELEMENT (a vertex);
