@@ -24,6 +24,13 @@ static void halfedge_destroy(mt_context *context, void *surgery)
     mt_halfedge_surgery_destroy(context, surgery);
 }
 
+/* A half-edge that is not there is not a cut that is missing. */
+static mt_index halfedge_cut(const mt_halfedge_surgery *surgery, mt_index end, mt_index vertex)
+{
+    mt_index found = mt_halfedge_surgery_find(surgery, end, vertex);
+    return found == MT_NONE && end != MT_NONE ? surgery->structure.halfedge_count : found;
+}
+
 static mt_surgery_verdict halfedge_judge(const void *surgery, const test_operation *at)
 {
     mt_index h = mt_halfedge_surgery_find(surgery, at->a, at->b);
@@ -33,8 +40,8 @@ static mt_surgery_verdict halfedge_judge(const void *surgery, const test_operati
     case TEST_SPLIT_EDGE:
         return mt_halfedge_can_split_edge(surgery, h);
     case TEST_SPLIT_VERTEX:
-        return mt_halfedge_can_split_vertex(surgery, at->a, mt_halfedge_surgery_find(surgery, at->b, at->a),
-                                            mt_halfedge_surgery_find(surgery, at->c, at->a));
+        return mt_halfedge_can_split_vertex(surgery, at->a, halfedge_cut(surgery, at->b, at->a),
+                                            halfedge_cut(surgery, at->c, at->a));
     case TEST_COLLAPSE_EDGE:
         return mt_halfedge_can_collapse_edge(surgery, h);
     case TEST_REMOVE_FACE:
@@ -53,8 +60,8 @@ static mt_status halfedge_operate(mt_context *context, void *surgery, const test
     case TEST_SPLIT_EDGE:
         return mt_halfedge_split_edge(context, surgery, h, at->weight, NULL);
     case TEST_SPLIT_VERTEX:
-        return mt_halfedge_split_vertex(context, surgery, at->a, mt_halfedge_surgery_find(surgery, at->b, at->a),
-                                        mt_halfedge_surgery_find(surgery, at->c, at->a), NULL);
+        return mt_halfedge_split_vertex(context, surgery, at->a, halfedge_cut(surgery, at->b, at->a),
+                                        halfedge_cut(surgery, at->c, at->a), NULL);
     case TEST_COLLAPSE_EDGE:
         return mt_halfedge_collapse_edge(context, surgery, h, at->weight);
     case TEST_REMOVE_FACE:
