@@ -2,6 +2,7 @@
 #include "tests/support/unit.h"
 
 #include <meshtool/halfedge_surgery.h>
+#include <meshtool/winged_edge_surgery.h>
 
 #include <string.h>
 
@@ -105,6 +106,98 @@ static uint64_t halfedge_hash(const void *opaque)
     return test_hash(hashes, sizeof hashes);
 }
 
+/* Winged edges */
+
+static mt_status winged_create(mt_context *context, const mt_mesh *mesh, void **out)
+{
+    *out = NULL;
+    mt_winged_edge_mesh *structure = NULL;
+    mt_status status = mt_winged_edge_create(context, mesh, &structure);
+    if (status == MT_OK) {
+        status = mt_winged_surgery_create(context, structure, (mt_winged_surgery **)out);
+    }
+    mt_winged_edge_destroy(context, structure);
+    return status;
+}
+
+static void winged_destroy(mt_context *context, void *surgery)
+{
+    mt_winged_surgery_destroy(context, surgery);
+}
+
+static mt_surgery_verdict winged_judge(const void *surgery, const test_operation *at)
+{
+    mt_index edge = mt_winged_surgery_find(surgery, at->a, at->b);
+    switch (at->kind) {
+    case TEST_SWAP_EDGE:
+        return mt_winged_can_swap_edge(surgery, edge);
+    case TEST_SPLIT_EDGE:
+        return mt_winged_can_split_edge(surgery, edge, at->a);
+    case TEST_SPLIT_VERTEX:
+        return mt_winged_can_split_vertex(surgery, at->a, edge, mt_winged_surgery_find(surgery, at->a, at->c));
+    case TEST_COLLAPSE_EDGE:
+        return mt_winged_can_collapse_edge(surgery, edge, at->a);
+    case TEST_REMOVE_FACE:
+        return mt_winged_can_remove_face(surgery, at->face);
+    default:
+        return mt_winged_can_add_face(surgery, at->count, at->vertices);
+    }
+}
+
+static mt_status winged_operate(mt_context *context, void *surgery, const test_operation *at)
+{
+    mt_index edge = mt_winged_surgery_find(surgery, at->a, at->b);
+    switch (at->kind) {
+    case TEST_SWAP_EDGE:
+        return mt_winged_swap_edge(context, surgery, edge);
+    case TEST_SPLIT_EDGE:
+        return mt_winged_split_edge(context, surgery, edge, at->a, at->weight, NULL);
+    case TEST_SPLIT_VERTEX:
+        return mt_winged_split_vertex(context, surgery, at->a, edge, mt_winged_surgery_find(surgery, at->a, at->c),
+                                      NULL);
+    case TEST_COLLAPSE_EDGE:
+        return mt_winged_collapse_edge(context, surgery, edge, at->a, at->weight);
+    case TEST_REMOVE_FACE:
+        return mt_winged_remove_face(context, surgery, at->face);
+    default:
+        return mt_winged_add_face(context, surgery, at->count, at->vertices, NULL);
+    }
+}
+
+static const mt_edit_log *winged_log(const void *surgery)
+{
+    return &((const mt_winged_surgery *)surgery)->log;
+}
+
+static mt_status winged_faces(mt_context *context, const void *surgery, mt_surgery_map *map, mt_mesh **out)
+{
+    *out = NULL;
+    mt_winged_edge_mesh *structure = NULL;
+    mt_mesh *points = NULL;
+    mt_status status = mt_winged_surgery_compact(context, surgery, map, &structure);
+    status = status == MT_OK ? mt_winged_edge_validate(context, structure) : status;
+    if (status == MT_OK) {
+        points = test_points(context, structure->vertex_count);
+        status = points ? mt_winged_edge_to_mesh(context, structure, points, out) : MT_ERROR_OUT_OF_MEMORY;
+    }
+    mt_mesh_destroy(context, points);
+    mt_winged_edge_destroy(context, structure);
+    return status;
+}
+
+static uint64_t winged_hash(const void *opaque)
+{
+    const mt_winged_surgery *surgery = opaque;
+    const mt_winged_edge_mesh *own = &surgery->structure;
+    uint64_t hashes[] = {test_hash(own->edges, own->edge_count * sizeof *own->edges),
+                         test_hash(own->vertex_edge, own->vertex_count * sizeof(mt_index)),
+                         test_hash(own->face_edge, own->face_count * sizeof(mt_index)),
+                         test_hash(surgery->vertex_deleted, own->vertex_count),
+                         test_hash(surgery->marks, own->vertex_count),
+                         surgery->log.count};
+    return test_hash(hashes, sizeof hashes);
+}
+
 mt_mesh *test_points(mt_context *context, mt_index count)
 {
     mt_mesh *mesh = NULL;
@@ -118,5 +211,7 @@ mt_mesh *test_points(mt_context *context, mt_index count)
 const test_surgeon test_surgeons[] = {
     {"half-edge", false, halfedge_create, halfedge_destroy, halfedge_judge, halfedge_operate, halfedge_log,
      halfedge_faces, halfedge_hash},
+    {"winged-edge", false, winged_create, winged_destroy, winged_judge, winged_operate, winged_log, winged_faces,
+     winged_hash},
 };
 const size_t test_surgeon_count = sizeof test_surgeons / sizeof *test_surgeons;

@@ -1,0 +1,93 @@
+/* What surgery on winged edges left, without gaps. Cost: O(size). */
+#include "lib/topology/winged_edit.h"
+
+static mt_status number_elements(mt_context *context, const mt_winged_surgery *surgery, mt_surgery_map *map,
+                                 mt_winged_edge_mesh *out)
+{
+    const mt_winged_edge_mesh *own = &surgery->structure;
+    *map = (mt_surgery_map){.vertex_count = own->vertex_count,
+                            .edge_count = own->edge_count,
+                            .face_count = own->face_count,
+                            .vertices = mt_allocate_array(context, own->vertex_count, sizeof(mt_index)),
+                            .edges = mt_allocate_array(context, own->edge_count, sizeof(mt_index)),
+                            .faces = mt_allocate_array(context, own->face_count, sizeof(mt_index))};
+    if (!map->vertices || !map->edges || !map->faces) {
+        return MT_ERROR_OUT_OF_MEMORY;
+    }
+    for (mt_index i = 0; i < own->vertex_count; i++) {
+        map->vertices[i] = surgery->vertex_deleted[i] ? MT_NONE : out->vertex_count++;
+    }
+    for (mt_index i = 0; i < own->edge_count; i++) {
+        map->edges[i] = own->edges[i].head == MT_NONE ? MT_NONE : out->edge_count++;
+    }
+    for (mt_index i = 0; i < own->face_count; i++) {
+        map->faces[i] = own->face_edge[i] == MT_NONE ? MT_NONE : out->face_count++;
+    }
+    return MT_OK;
+}
+
+static mt_index renumber(const mt_index *map, mt_index old)
+{
+    return old == MT_NONE ? MT_NONE : map[old];
+}
+
+static mt_winged_edge renumber_edge(const mt_surgery_map *map, mt_winged_edge edge)
+{
+    return (mt_winged_edge){.head = map->vertices[edge.head],
+                            .tail = map->vertices[edge.tail],
+                            .left = renumber(map->faces, edge.left),
+                            .right = renumber(map->faces, edge.right),
+                            .lprev = map->edges[edge.lprev],
+                            .lnext = map->edges[edge.lnext],
+                            .rprev = map->edges[edge.rprev],
+                            .rnext = map->edges[edge.rnext]};
+}
+
+static mt_status copy_elements(mt_context *context, const mt_winged_edge_mesh *own, const mt_surgery_map *map,
+                               mt_winged_edge_mesh *out)
+{
+    out->edges = mt_allocate_array(context, out->edge_count, sizeof *out->edges);
+    out->vertex_edge = mt_allocate_array(context, out->vertex_count, sizeof(mt_index));
+    out->face_edge = mt_allocate_array(context, out->face_count, sizeof(mt_index));
+    if (!out->edges || !out->vertex_edge || !out->face_edge) {
+        return MT_ERROR_OUT_OF_MEMORY;
+    }
+    for (mt_index i = 0; i < own->edge_count; i++) {
+        if (map->edges[i] != MT_NONE) {
+            out->edges[map->edges[i]] = renumber_edge(map, own->edges[i]);
+        }
+    }
+    for (mt_index i = 0; i < own->vertex_count; i++) {
+        if (map->vertices[i] != MT_NONE) {
+            out->vertex_edge[map->vertices[i]] = renumber(map->edges, own->vertex_edge[i]);
+        }
+    }
+    for (mt_index i = 0; i < own->face_count; i++) {
+        if (map->faces[i] != MT_NONE) {
+            out->face_edge[map->faces[i]] = map->edges[own->face_edge[i]];
+        }
+    }
+    return MT_OK;
+}
+
+mt_status mt_winged_surgery_compact(mt_context *context, const mt_winged_surgery *surgery, mt_surgery_map *map,
+                                    mt_winged_edge_mesh **out)
+{
+    *out = NULL;
+    mt_surgery_map own = {0};
+    mt_winged_edge_mesh *structure = mt_allocate_zeroed(context, sizeof *structure);
+    mt_status status = structure ? number_elements(context, surgery, &own, structure) : MT_ERROR_OUT_OF_MEMORY;
+    status = status == MT_OK ? copy_elements(context, &surgery->structure, &own, structure) : status;
+    if (status != MT_OK) {
+        mt_winged_edge_destroy(context, structure);
+        structure = NULL;
+    }
+    if (status != MT_OK || !map) {
+        mt_surgery_map_release(context, &own);
+    }
+    if (map) {
+        *map = own;
+    }
+    *out = structure;
+    return status;
+}
