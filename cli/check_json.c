@@ -1,4 +1,4 @@
-/* check-manifold's JSON: the keys of the contract, in its order. */
+/* check-manifold's JSON: the keys of the contract, in its order, then what we found worth adding. */
 #include "check.h"
 
 static json_t *index_json(mt_index number)
@@ -73,6 +73,8 @@ static void set_shape(json_t *object, const mt_manifold_report *report)
                  report->has_self_intersections ? cli_json_integer(report->defect_counts[MT_DEFECT_SELF_INTERSECTION])
                                                 : json_null());
     cli_json_set(object, "as_welded", welded_json(report));
+    set_count_of(object, report, MT_DEFECT_BOUNDARY_PINCH);
+    set_count_of(object, report, MT_DEFECT_INSIDE_OUT_COMPONENT);
 }
 
 static json_t *indices_json(const mt_index *indices, mt_index count)

@@ -1,10 +1,12 @@
 /* check-manifold --paint: the mesh, or a picture of it, with each kind of defect in its colour. */
 #include "check.h"
+#include "check_words.h"
 #include "line.h"
 #include "message.h"
 #include "progress.h"
 #include "quantity.h"
 
+#include <meshtool/components.h>
 #include <meshtool/preview.h>
 
 #include <string.h>
@@ -15,17 +17,26 @@ typedef struct defect_color {
 } defect_color;
 
 static const defect_color colors[MT_DEFECT_KIND_COUNT] = {
-    [MT_DEFECT_NON_FINITE_VERTEX] = {"black", {0, 0, 0}},      [MT_DEFECT_DEGENERATE_FACE] = {"magenta", {230, 0, 200}},
-    [MT_DEFECT_DUPLICATE_FACE] = {"orange", {255, 140, 0}},    [MT_DEFECT_NON_MANIFOLD_EDGE] = {"red", {220, 20, 20}},
-    [MT_DEFECT_NON_MANIFOLD_VERTEX] = {"blue", {30, 70, 230}}, [MT_DEFECT_MISORIENTED_EDGE] = {"yellow", {240, 210, 0}},
-    [MT_DEFECT_ZERO_AREA_FACE] = {"purple", {120, 40, 160}},   [MT_DEFECT_ISOLATED_VERTEX] = {"cyan", {0, 190, 210}},
-    [MT_DEFECT_SELF_INTERSECTION] = {"brown", {130, 75, 25}},  [MT_DEFECT_BOUNDARY_EDGE] = {"green", {20, 150, 60}},
+    [MT_DEFECT_NON_FINITE_VERTEX] = {"black", {0, 0, 0}},
+    [MT_DEFECT_DEGENERATE_FACE] = {"magenta", {230, 0, 200}},
+    [MT_DEFECT_DUPLICATE_FACE] = {"orange", {255, 140, 0}},
+    [MT_DEFECT_NON_MANIFOLD_EDGE] = {"red", {220, 20, 20}},
+    [MT_DEFECT_NON_MANIFOLD_VERTEX] = {"blue", {30, 70, 230}},
+    [MT_DEFECT_MISORIENTED_EDGE] = {"yellow", {240, 210, 0}},
+    [MT_DEFECT_ZERO_AREA_FACE] = {"purple", {120, 40, 160}},
+    [MT_DEFECT_ISOLATED_VERTEX] = {"cyan", {0, 190, 210}},
+    [MT_DEFECT_BOUNDARY_PINCH] = {"pink", {255, 120, 190}},
+    [MT_DEFECT_INSIDE_OUT_COMPONENT] = {"olive", {125, 125, 0}},
+    [MT_DEFECT_SELF_INTERSECTION] = {"brown", {130, 75, 25}},
+    [MT_DEFECT_BOUNDARY_EDGE] = {"green", {20, 150, 60}},
 };
 
 static const unsigned char neutral[3] = {205, 205, 205};
 
 /* Colours of faces and vertices, and the edges to mark. */
 typedef struct defect_paint {
+    mt_edge_pairs *pairs;
+    mt_components *components; /* when one of them is a defect, else NULL */
     unsigned char *faces, *vertices, *marked_vertices;
     mt_index *edges;
     unsigned char *edge_colors;
@@ -39,6 +50,8 @@ static void release(mt_context *context, defect_paint *paint)
     mt_free(context, paint->marked_vertices);
     mt_free(context, paint->edges);
     mt_free(context, paint->edge_colors);
+    mt_components_destroy(context, paint->components);
+    mt_edge_pairs_destroy(context, paint->pairs);
 }
 
 static unsigned char *allocate_neutral(mt_context *context, mt_index count)
@@ -50,6 +63,14 @@ static unsigned char *allocate_neutral(mt_context *context, mt_index count)
     return bytes;
 }
 
+/* Listed are only the first faces of components. */
+static bool find_components(mt_context *context, const cli_check *check, defect_paint *out)
+{
+    return check->report->defect_counts[MT_DEFECT_INSIDE_OUT_COMPONENT] == 0 ||
+           (mt_edge_pairs_create(context, check->mesh, &out->pairs) == MT_OK &&
+            mt_components_create(context, check->mesh, out->pairs, true, &out->components) == MT_OK);
+}
+
 static bool allocate(mt_context *context, const cli_check *check, defect_paint *out)
 {
     memset(out, 0, sizeof *out);
@@ -58,7 +79,8 @@ static bool allocate(mt_context *context, const cli_check *check, defect_paint *
     out->marked_vertices = mt_allocate_zeroed(context, check->mesh->vertex_count);
     out->edges = mt_allocate_array(context, check->report->defect_list_count, 2 * sizeof *out->edges);
     out->edge_colors = mt_allocate_array(context, check->report->defect_list_count, 3);
-    if (out->faces && out->vertices && out->marked_vertices && out->edges && out->edge_colors) {
+    if (out->faces && out->vertices && out->marked_vertices && out->edges && out->edge_colors &&
+        find_components(context, check, out)) {
         return true;
     }
     release(context, out);
@@ -72,7 +94,8 @@ static bool marks_edge(mt_defect_kind kind)
 
 static bool marks_vertex(mt_defect_kind kind)
 {
-    return kind == MT_DEFECT_NON_MANIFOLD_VERTEX || kind == MT_DEFECT_ISOLATED_VERTEX;
+    return kind == MT_DEFECT_NON_MANIFOLD_VERTEX || kind == MT_DEFECT_BOUNDARY_PINCH ||
+           kind == MT_DEFECT_ISOLATED_VERTEX;
 }
 
 /* A hole's rim is no fault of the faces beside it. A picture shows by its lines where the orientation changes, and by
@@ -111,12 +134,42 @@ static void paint_defect(const mt_mesh *mesh, const mt_defect *defect, bool for_
     }
 }
 
-/* The last to mend first, so that what is to be mended first is not painted over. */
-static void paint_all(const cli_check *check, bool for_picture, defect_paint *paint)
+/* All faces of the components whose first faces are listed, by one look at all faces. */
+static mt_status paint_components(mt_context *context, const cli_check *check, mt_defect_kind kind, defect_paint *paint)
 {
-    for (size_t i = check->report->defect_list_count; i-- > 0;) {
-        paint_defect(check->mesh, &check->report->defects[i], for_picture, paint);
+    const mt_manifold_report *report = check->report;
+    uint8_t *listed = mt_allocate_zeroed(context, paint->components->component_count);
+    if (!listed) {
+        return MT_ERROR_OUT_OF_MEMORY;
     }
+    for (size_t i = 0; i < report->defect_list_count; i++) {
+        if (report->defects[i].kind == kind) {
+            listed[paint->components->face_component[report->defects[i].faces[0]]] = 1;
+        }
+    }
+    for (mt_index face = 0; face < check->mesh->face_count; face++) {
+        if (listed[paint->components->face_component[face]]) {
+            memcpy(paint->faces + 3 * (size_t)face, colors[kind].rgb, 3);
+            paint_vertices_of(check->mesh, face, colors[kind].rgb, paint);
+        }
+    }
+    mt_free(context, listed);
+    return MT_OK;
+}
+
+/* The last to mend first, so that what is to be mended first is not painted over. */
+static mt_status paint_all(mt_context *context, const cli_check *check, bool for_picture, defect_paint *paint)
+{
+    mt_status status = MT_OK;
+    const mt_defect *defects = check->report->defects;
+    for (size_t i = check->report->defect_list_count; i-- > 0 && status == MT_OK;) {
+        if (!cli_defect_is_of_components(defects[i].kind)) {
+            paint_defect(check->mesh, &defects[i], for_picture, paint);
+        } else if (i == 0 || defects[i - 1].kind != defects[i].kind) {
+            status = paint_components(context, check, defects[i].kind, paint);
+        }
+    }
+    return status;
 }
 
 static void say_legend(const cli_job *job, const cli_check *check, const char *path)
@@ -228,8 +281,12 @@ cli_exit cli_check_paint(const cli_job *job, const cli_check *check, const char 
         return cli_report_failure(job, check->file);
     }
     bool for_picture = is_picture(job, path);
-    paint_all(check, for_picture, &paint);
-    cli_exit code = for_picture ? write_picture(job, check, &paint, path) : write_painted(job, check, &paint, path);
+    cli_exit code = CLI_EXIT_DONE;
+    if (paint_all(job->context, check, for_picture, &paint) != MT_OK) {
+        code = cli_report_failure(job, check->file);
+    } else {
+        code = for_picture ? write_picture(job, check, &paint, path) : write_painted(job, check, &paint, path);
+    }
     if (code == CLI_EXIT_DONE) {
         say_legend(job, check, path);
     }

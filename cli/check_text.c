@@ -71,6 +71,8 @@ static void print_example(const cli_check *check, const mt_defect *defect)
         mt_index a = defect->vertices[0], b = defect->vertices[1];
         cli_line_add(&line, "edge %u-%u at %s, in ", a < b ? a : b, a < b ? b : a, place.text);
         add_list(&line, "face", defect->faces, defect->face_count);
+    } else if (cli_defect_is_of_components(defect->kind)) {
+        cli_line_add(&line, "the component of face %u, which is at %s", defect->faces[0], place.text);
     } else if (defect->kind == MT_DEFECT_DUPLICATE_FACE && defect->face_count == 2) {
         cli_line_add(&line, "face %u repeats face %u, at %s", defect->faces[1], defect->faces[0], place.text);
     } else if (cli_defect_is_of_faces(defect->kind)) {
@@ -108,7 +110,7 @@ static bool print_defects(const cli_check *check)
 {
     bool found = false;
     for (mt_defect_kind kind = 0; kind < MT_DEFECT_BOUNDARY_EDGE; kind++) {
-        if (check->report->defect_counts[kind]) {
+        if (check->report->defect_counts[kind] && kind != MT_DEFECT_BOUNDARY_PINCH) {
             if (!found) {
                 puts("\nWhat is wrong, in the order in which to mend it (numbers count from 0):");
             }
@@ -130,6 +132,9 @@ static void print_boundary(mt_context *context, const cli_check *check)
     if (report->boundary_loop_count == MT_NONE) {
         printf("\nBoundary: %s; once the rest is mended, %s.\n", cli_defects_told(report, MT_DEFECT_BOUNDARY_EDGE).text,
                cure);
+        if (report->defect_counts[MT_DEFECT_BOUNDARY_PINCH]) {
+            print_kind(check, MT_DEFECT_BOUNDARY_PINCH);
+        }
         return;
     }
     printf("\nBoundary: %s, %s; ", cli_counted(report->boundary_loop_count, "loop").text,
@@ -168,14 +173,23 @@ static void print_as_welded(const cli_check *check)
     const char *still = welded->manifold_class == report->manifold_class ? "still " : "";
     printf("\n%s %s at the place of another. As welded it would %sbe %s, ", cli_counted(excess, "vertex").text,
            excess == 1 ? "is" : "are", still, class_told(welded->manifold_class));
-    printf("with %s", cli_counted(welded->boundary_edge_count, "boundary edge").text);
-    if (welded->non_manifold_edge_count) {
-        printf(", %s", cli_counted(welded->non_manifold_edge_count, "non-manifold edge").text);
+    const struct {
+        const char *noun;
+        mt_index count;
+    } left[] = {{"boundary edge", welded->boundary_edge_count},
+                {"non-manifold edge", welded->non_manifold_edge_count},
+                {"non-manifold vertex", welded->non_manifold_vertex_count}};
+    size_t kinds = 1, index = 0;
+    for (int i = 1; i < 3; i++) {
+        kinds += left[i].count > 0;
     }
-    if (welded->non_manifold_vertex_count) {
-        printf(", %s", cli_counted(welded->non_manifold_vertex_count, "non-manifold vertex").text);
+    cli_line line = {0};
+    for (int i = 0; i < 3; i++) {
+        if (i == 0 || left[i].count) {
+            cli_line_add_item(&line, index++, kinds, cli_counted(left[i].count, left[i].noun).text);
+        }
     }
-    printf("; `meshtool repair %s --weld` joins them.\n", shell_name(check->file));
+    printf("with %s; `meshtool repair %s -o OUT --weld` joins them.\n", line.text, shell_name(check->file));
 }
 
 static void print_volume(const mt_manifold_report *report)

@@ -50,9 +50,9 @@ static void add_class(cli_line *line, const mt_manifold_report *report)
 /* What neither the class nor the orientation tells. */
 static void add_others(cli_line *line, const mt_manifold_report *report)
 {
-    static const mt_defect_kind others[] = {MT_DEFECT_NON_FINITE_VERTEX, MT_DEFECT_DUPLICATE_FACE,
-                                            MT_DEFECT_ZERO_AREA_FACE, MT_DEFECT_SELF_INTERSECTION,
-                                            MT_DEFECT_ISOLATED_VERTEX};
+    static const mt_defect_kind others[] = {MT_DEFECT_NON_FINITE_VERTEX,    MT_DEFECT_DUPLICATE_FACE,
+                                            MT_DEFECT_INSIDE_OUT_COMPONENT, MT_DEFECT_ZERO_AREA_FACE,
+                                            MT_DEFECT_SELF_INTERSECTION,    MT_DEFECT_ISOLATED_VERTEX};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         if (report->defect_counts[others[i]]) {
             cli_line_add(line, "; %s", cli_defects_told(report, others[i]).text);

@@ -5,7 +5,7 @@
 /* What a kind of defect is, for one and for several, how it is mended, and what it is found on. */
 typedef struct defect_words {
     const char *one, *several, *cure_one, *cure_several;
-    char element; /* v, e, f, or p for a pair of faces */
+    char element; /* v, e, f, p for a pair of faces, c for a component */
     bool breaks;
 } defect_words;
 
@@ -22,12 +22,19 @@ static const defect_words words[MT_DEFECT_KIND_COUNT] = {
     [MT_DEFECT_NON_MANIFOLD_EDGE] = {"edge has three faces or more", "edges have three faces or more",
                                      "drop the faces too many, or give each surface its own edge",
                                      "drop the faces too many, or give each surface its own edges", 'e', true},
+    [MT_DEFECT_BOUNDARY_PINCH] = {"vertex is where the boundary touches itself",
+                                  "vertices are where the boundary touches itself",
+                                  "give each part of the boundary its own copy of it",
+                                  "give each part of the boundary its own copy of them", 'v', false},
     [MT_DEFECT_NON_MANIFOLD_VERTEX] = {"vertex joins separate surfaces", "vertices join separate surfaces",
                                        "give each surface its own copy of it", "give each surface its own copy of them",
                                        'v', true},
     [MT_DEFECT_MISORIENTED_EDGE] = {"edge lies between faces turned opposite ways",
                                     "edges lie between faces turned opposite ways", "turn over the faces on one side",
                                     "turn over the faces on one side of them", 'e', false},
+    [MT_DEFECT_INSIDE_OUT_COMPONENT] = {"component is inside out", "components are inside out",
+                                        "turn over all its faces, unless it is the wall of a cavity",
+                                        "turn over all their faces, unless they are walls of cavities", 'c', false},
     [MT_DEFECT_ZERO_AREA_FACE] = {"face has no area, as its vertices lie on one line",
                                   "faces have no area, as the vertices of each lie on one line",
                                   "collapse it, or move a vertex", "collapse them, or move a vertex of each", 'f',
@@ -73,6 +80,11 @@ bool cli_defect_is_of_edges(mt_defect_kind kind)
 bool cli_defect_is_of_pairs(mt_defect_kind kind)
 {
     return words[kind].element == 'p';
+}
+
+bool cli_defect_is_of_components(mt_defect_kind kind)
+{
+    return words[kind].element == 'c';
 }
 
 bool cli_defect_is_of_faces(mt_defect_kind kind)

@@ -17,6 +17,7 @@ bool cli_defect_breaks(mt_defect_kind kind);
 
 bool cli_defect_is_of_edges(mt_defect_kind kind);
 bool cli_defect_is_of_pairs(mt_defect_kind kind); /* of faces */
+bool cli_defect_is_of_components(mt_defect_kind kind);
 bool cli_defect_is_of_faces(mt_defect_kind kind);
 
 #endif

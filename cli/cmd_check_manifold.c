@@ -95,6 +95,7 @@ static cli_exit check_file(const cli_job *job, const char *file)
     bool needs_all = settings->paint || form == CHECK_FORM_TEXT;
     mt_manifold_options how = {.defects_per_kind = needs_all ? UINT64_MAX : check.listed_per_kind,
                                .self_intersections = settings->self_intersections || settings->watertight,
+                               .inside_out = true,
                                .as_welded = form == CHECK_FORM_JSON || form == CHECK_FORM_TEXT};
     mt_manifold_report report;
     if (mt_check_manifold(job->context, mesh, &how, &report) != MT_OK) {

@@ -39,6 +39,8 @@ cli_quantity cli_plural(uint64_t number, const char *noun)
         snprintf(quantity.text, sizeof quantity.text, "%.*sices", length - 2, noun);
     } else if (ends_with(noun, "dy") || ends_with(noun, "ry")) {
         snprintf(quantity.text, sizeof quantity.text, "%.*sies", length - 1, noun);
+    } else if (ends_with(noun, "ch")) {
+        snprintf(quantity.text, sizeof quantity.text, "%ses", noun);
     } else {
         snprintf(quantity.text, sizeof quantity.text, "%ss", noun);
     }

@@ -125,14 +125,18 @@ static mt_status run_check(manifold_check *check, const mt_manifold_options *opt
         return status;
     }
     conclude(check);
-    static const step geometry[] = {mt_manifold_count_loops, mt_manifold_scan_vertices, mt_manifold_measure};
+    static const step geometry[] = {mt_manifold_count_loops, mt_manifold_find_pinches, mt_manifold_scan_vertices,
+                                    mt_manifold_measure};
     for (size_t i = 0; i < sizeof geometry / sizeof *geometry && status == MT_OK; i++) {
-        status = mt_progress(context, "checking", 0.7 + 0.1 * (double)i);
+        status = mt_progress(context, "checking", 0.7 + 0.05 * (double)i);
         status = status == MT_OK ? geometry[i](check) : status;
     }
     find_genus(check->report);
     if (status == MT_OK && options->self_intersections) {
         status = find_self_intersections(check);
+    }
+    if (status == MT_OK && options->inside_out) {
+        status = mt_manifold_find_inside_out(check);
     }
     if (status == MT_OK && options->as_welded) {
         status = mt_manifold_look_as_welded(check);
@@ -148,6 +152,8 @@ static void release_check(manifold_check *check)
     mt_free(check->context, check->face_flags);
     mt_free(check->context, check->vertex_is_non_finite);
     mt_free(check->context, check->duplicates);
+    mt_free(check->context, check->boundary_ends);
+    mt_free(check->context, check->inside_out_faces);
     mt_self_intersections_release(check->context, &check->intersections);
 }
 

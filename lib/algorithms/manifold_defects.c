@@ -10,16 +10,18 @@
 const char *mt_defect_key(mt_defect_kind kind)
 {
     static const char *const keys[MT_DEFECT_KIND_COUNT] = {
-        "non_finite_vertices", "degenerate_faces", "duplicate_faces",    "non_manifold_edges", "non_manifold_vertices",
-        "misoriented_edges",   "zero_area_faces",  "self_intersections", "isolated_vertices",  "boundary_edges"};
+        "non_finite_vertices", "degenerate_faces",      "duplicate_faces",   "non_manifold_edges",
+        "boundary_pinches",    "non_manifold_vertices", "misoriented_edges", "inside_out_components",
+        "zero_area_faces",     "self_intersections",    "isolated_vertices", "boundary_edges"};
     return keys[kind];
 }
 
 const char *mt_defect_words(mt_defect_kind kind)
 {
     static const char *const words[MT_DEFECT_KIND_COUNT] = {
-        "non-finite vertex", "degenerate face", "duplicate face",    "non-manifold edge", "non-manifold vertex",
-        "misoriented edge",  "zero-area face",  "self-intersection", "isolated vertex",   "boundary edge"};
+        "non-finite vertex", "degenerate face",     "duplicate face",   "non-manifold edge",
+        "boundary pinch",    "non-manifold vertex", "misoriented edge", "inside-out component",
+        "zero-area face",    "self-intersection",   "isolated vertex",  "boundary edge"};
     return words[kind];
 }
 
@@ -109,6 +111,20 @@ static void list_faces(defect_list *list, mt_defect_kind kind, uint8_t flag)
             add_face(list, defect, face);
             list->limit--;
         }
+    }
+}
+
+static void list_inside_out(defect_list *list)
+{
+    const mt_mesh *mesh = list->check->mesh;
+    uint64_t count = list->check->report->defect_counts[MT_DEFECT_INSIDE_OUT_COMPONENT];
+    for (uint64_t i = 0; i < count && i < list->limit && !list->failed; i++) {
+        mt_index face = list->check->inside_out_faces[i];
+        mt_defect *defect = begin_defect(list, MT_DEFECT_INSIDE_OUT_COMPONENT);
+        for (mt_index c = mt_mesh_face_begin(mesh, face); c < mt_mesh_face_end(mesh, face); c++) {
+            add_vertex(list, defect, mesh->corner_vertices[c]);
+        }
+        add_face(list, defect, face);
     }
 }
 
@@ -319,6 +335,12 @@ static void list_kind(defect_list *list, mt_defect_kind kind)
         break;
     case MT_DEFECT_NON_MANIFOLD_EDGE:
         list_edges(list, kind, MT_EDGE_NON_MANIFOLD);
+        break;
+    case MT_DEFECT_BOUNDARY_PINCH:
+        list_vertices(list, kind, check->boundary_ends, PINCH_ENDS);
+        break;
+    case MT_DEFECT_INSIDE_OUT_COMPONENT:
+        list_inside_out(list);
         break;
     case MT_DEFECT_NON_MANIFOLD_VERTEX:
         list_non_manifold_vertices(list);

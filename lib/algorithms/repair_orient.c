@@ -1,21 +1,16 @@
 /* Turning faces so that neighbours run alike, and closed components outwards.
  *
  * A component's faces are turned to agree with its first face, or all others are, whichever turns fewer; a closed one
- * is then turned as a whole where its volume is negative. A component that no turning orients (a Moebius strip) stays
- * as it is and is counted as left. Volumes are summed about the component's own first vertex, with coordinates scaled
- * by a power of two, over fans that do not depend on the direction of a face: triangulations may, and two volumes of
- * one bent component that are both negative would have it turned for ever. */
+ * is then turned as a whole where its volume is negative (component_volume.c). A component that no turning orients (a
+ * Moebius strip) stays as it is and is counted as left. */
+#include "lib/algorithms/component_volume.h"
 #include "lib/algorithms/repair_state.h"
-
-#include <meshtool/components.h>
 
 #include <string.h>
 
 typedef struct component_facts {
-    mt_vec3 origin; /* scaled position of its first vertex */
-    double volume;  /* six times, after turning to agree with the first face */
     mt_index face_count, turned_count;
-    bool has_face, is_open, is_unorientable;
+    bool is_open, is_unorientable;
 } component_facts;
 
 typedef struct orient_job {
@@ -23,6 +18,7 @@ typedef struct orient_job {
     const mt_edge_pairs *pairs;
     const mt_components *components;
     component_facts *facts;
+    int8_t *volume_signs; /* after turning to agree with the first face */
 } orient_job;
 
 /* Edges tell what closed and orientable mean: an edge of one side opens its component, one whose two sides disagree
@@ -46,45 +42,6 @@ static void look_at_edges(orient_job *job)
     }
 }
 
-static mt_vec3 relative_position(const mt_mesh *mesh, mt_index corner, double scale, mt_vec3 origin)
-{
-    return mt_vec3_subtract(mt_vec3_scale(mt_mesh_position(mesh, mesh->corner_vertices[corner]), scale), origin);
-}
-
-/* Of the fan about the face's first corner. The fan is run from the end with the lower vertex, so that a face turned
- * over has the same volume, bit for bit, but for its sign. */
-static double face_volume(const mt_mesh *mesh, mt_index face, double scale, mt_vec3 origin)
-{
-    mt_index begin = mt_mesh_face_begin(mesh, face), sides = mt_mesh_face_sides(mesh, face);
-    const mt_index *vertices = mesh->corner_vertices + begin;
-    bool backwards = vertices[sides - 1] < vertices[1];
-    mt_vec3 apex = relative_position(mesh, begin, scale, origin);
-    mt_vec3 before = relative_position(mesh, begin + (backwards ? sides - 1 : 1), scale, origin);
-    double volume = 0;
-    for (mt_index i = 2; i < sides; i++) {
-        mt_vec3 point = relative_position(mesh, begin + (backwards ? sides - i : i), scale, origin);
-        volume += mt_vec3_dot(apex, mt_vec3_cross(before, point));
-        before = point;
-    }
-    return backwards ? -volume : volume;
-}
-
-static void measure_volumes(orient_job *job)
-{
-    const mt_mesh *mesh = job->state->mesh;
-    mt_bounds bounds = mt_mesh_bounds(mesh);
-    double scale = mt_power_of_two_scale(fmax(mt_vec3_max_abs(bounds.minimum), mt_vec3_max_abs(bounds.maximum)));
-    for (mt_index face = 0; face < mesh->face_count; face++) {
-        component_facts *facts = &job->facts[job->components->face_component[face]];
-        if (!facts->has_face) {
-            facts->has_face = true;
-            facts->origin = relative_position(mesh, mt_mesh_face_begin(mesh, face), scale, (mt_vec3){0});
-        }
-        double volume = face_volume(mesh, face, scale, facts->origin);
-        facts->volume += job->components->face_turned[face] ? -volume : volume;
-    }
-}
-
 static void count_faces(orient_job *job)
 {
     for (mt_index face = 0; face < job->state->mesh->face_count; face++) {
@@ -95,10 +52,10 @@ static void count_faces(orient_job *job)
 }
 
 /* Whether all faces of the component are turned once more than its first face asks. */
-static bool is_reversed(const component_facts *facts)
+static bool is_reversed(const component_facts *facts, int volume_sign)
 {
-    if (!facts->is_open && facts->volume != 0) {
-        return facts->volume < 0;
+    if (!facts->is_open && volume_sign != 0) {
+        return volume_sign < 0;
     }
     return facts->turned_count > facts->face_count - facts->turned_count;
 }
@@ -111,8 +68,10 @@ static mt_status choose_turned(orient_job *job, uint8_t *turn, mt_repair_result 
         result->left_count += job->facts[i].is_unorientable;
     }
     for (mt_index face = 0; status == MT_OK && face < job->state->mesh->face_count; face++) {
-        const component_facts *facts = &job->facts[components->face_component[face]];
-        turn[face] = !facts->is_unorientable && (components->face_turned[face] != 0) != is_reversed(facts);
+        mt_index component = components->face_component[face];
+        const component_facts *facts = &job->facts[component];
+        bool reversed = is_reversed(facts, job->volume_signs[component]);
+        turn[face] = !facts->is_unorientable && (components->face_turned[face] != 0) != reversed;
         if (turn[face]) {
             result->count++;
             status = mt_repair_note_face(job->state->context, result, job->state->face_origins[face]);
@@ -150,19 +109,24 @@ static mt_status turn_faces(repair_state *state, const uint8_t *turn)
 static mt_status orient(orient_job *job, mt_repair_result *result)
 {
     repair_state *state = job->state;
-    job->facts = mt_allocate_array_zeroed(state->context, job->components->component_count, sizeof *job->facts);
+    mt_index component_count = job->components->component_count;
+    job->facts = mt_allocate_array_zeroed(state->context, component_count, sizeof *job->facts);
+    job->volume_signs = mt_allocate(state->context, component_count);
     uint8_t *turn = mt_allocate(state->context, state->mesh->face_count);
-    mt_status status = job->facts && turn ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
+    mt_status status = job->facts && job->volume_signs && turn ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
+    if (status == MT_OK) {
+        status = mt_component_volume_signs(state->context, state->mesh, job->components, job->volume_signs);
+    }
     if (status == MT_OK) {
         look_at_edges(job);
         count_faces(job);
-        measure_volumes(job);
         status = choose_turned(job, turn, result);
     }
     if (status == MT_OK && result->count) {
         status = turn_faces(state, turn);
     }
     mt_free(state->context, turn);
+    mt_free(state->context, job->volume_signs);
     mt_free(state->context, job->facts);
     return status;
 }

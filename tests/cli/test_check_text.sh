@@ -28,7 +28,7 @@ prints "flipped.off: not closed and not oriented: "
 
 # The cube inside out.
 awk 'NR <= 10 { print; next } { print $1, $5, $4, $3, $2 }' "$folder/cube.off" >"$folder/inside.off"
-verdict 0 inside.off "manifold and closed, consistently oriented."
+verdict 0 inside.off "manifold and closed, consistently oriented; 1 component is inside out."
 prints "volume -1 (negative: the faces look inwards; turn them all over)"
 
 # One-sided surfaces are told apart from turned faces.
@@ -95,7 +95,43 @@ says "brown 1 self-intersection"
 printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n' >"$folder/seam.off"
 run 0 check-manifold "$folder/seam.off"
 prints "2 vertices are at the place of another. As welded it would still be manifold with boundary, with 4 boundary edges"
-prints "seam.off --weld"
+prints "seam.off -o OUT --weld"
+
+# A part that looks inwards beside one that does not.
+cat >"$folder/inside_part.off" <<'END_OF_MESH'
+OFF
+8 8 0
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+3 0 0
+4 0 0
+3 1 0
+3 0 1
+3 0 2 1
+3 0 1 3
+3 1 2 3
+3 0 3 2
+3 4 5 6
+3 4 7 5
+3 5 7 6
+3 4 6 7
+END_OF_MESH
+run 0 check-manifold "$folder/inside_part.off" --paint "$folder/inside_part.png"
+prints "1 component is inside out: turn over all its faces, unless it is the wall of a cavity"
+prints "the component of face 4, which is at (3.33333, 0.333333, 0)"
+says "olive 1 inside-out component"
+run 0 repair "$folder/inside_part.off" -o "$folder/outside.off" --orient
+prints "turned 4 faces"
+run 0 check-manifold "$folder/outside.off" --json
+prints '"inside_out_components": 0'
+
+# Where the boundary touches itself.
+run 1 check-manifold meshes/non_manifold/bow_tie.obj --json
+prints '{"kind": "boundary_pinches", "vertices": [0], "faces": []}'
+run 1 check-manifold meshes/non_manifold/bow_tie.obj
+prints "1 vertex is where the boundary touches itself: give each part of the boundary its own copy of it"
 
 # Several files get a line each, with -v all of it.
 run 1 check-manifold "$folder/cube.off" "$folder/book.off"
@@ -110,7 +146,7 @@ prints "corners welded where equal, as STL has no indices"
 
 # Painted: the mesh has a colour for each face and vertex, the picture is one; the legend names them.
 run 1 check-manifold "$folder/book.off" --paint "$folder/book.ply"
-says "book.ply: red 1 non-manifold edge, green 6 boundary edges"
+says "book.ply: red 1 non-manifold edge, pink 2 boundary pinches, green 6 boundary edges"
 run 0 info "$folder/book.ply"
 prints "color per vertex"
 prints "color per face"

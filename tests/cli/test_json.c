@@ -176,6 +176,8 @@ static void the_check_has_the_keys_of_the_contract(void **state)
                                        "volume",
                                        "self_intersections",
                                        "as_welded",
+                                       "boundary_pinches",
+                                       "inside_out_components",
                                        "defects",
                                        NULL};
     static const char *const defect_keys[] = {"kind", "vertices", "faces", NULL};

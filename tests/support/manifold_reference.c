@@ -123,6 +123,15 @@ static mt_index count_fans(const mt_mesh *mesh, mt_index vertex)
     return sets.count;
 }
 
+static mt_index count_boundary_ends(const mt_mesh *mesh, mt_index vertex)
+{
+    mt_index count = 0;
+    for (mt_index other = 0; other < mesh->vertex_count; other++) {
+        count += test_edge_is_defect(mesh, MT_DEFECT_BOUNDARY_EDGE, vertex, other);
+    }
+    return count;
+}
+
 bool test_vertex_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index vertex)
 {
     switch (kind) {
@@ -132,6 +141,8 @@ bool test_vertex_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index ve
         return count_fans(mesh, vertex) > 1;
     case MT_DEFECT_ISOLATED_VERTEX:
         return count_fans(mesh, vertex) == 0;
+    case MT_DEFECT_BOUNDARY_PINCH:
+        return count_boundary_ends(mesh, vertex) > 2;
     default:
         return false;
     }
@@ -149,13 +160,6 @@ static bool is_degenerate(const mt_mesh *mesh, mt_index face)
     return false;
 }
 
-/* Coordinates of the tests are small whole numbers, so this is exact. */
-static bool on_one_line(mt_vec3 a, mt_vec3 b, mt_vec3 c)
-{
-    mt_vec3 cross = mt_vec3_cross(mt_vec3_subtract(b, a), mt_vec3_subtract(c, a));
-    return cross.x == 0 && cross.y == 0 && cross.z == 0;
-}
-
 static bool is_zero_area(const mt_mesh *mesh, mt_index face)
 {
     mt_index sides = sides_of(mesh, face);
@@ -167,9 +171,9 @@ static bool is_zero_area(const mt_mesh *mesh, mt_index face)
     for (mt_index i = 0; i < sides; i++) {
         for (mt_index j = 0; j < i; j++) {
             for (mt_index k = 0; k < j; k++) {
-                if (!on_one_line(mt_mesh_position(mesh, vertex_of(mesh, face, i)),
-                                 mt_mesh_position(mesh, vertex_of(mesh, face, j)),
-                                 mt_mesh_position(mesh, vertex_of(mesh, face, k)))) {
+                if (!test_points_are_collinear(mt_mesh_position(mesh, vertex_of(mesh, face, i)),
+                                               mt_mesh_position(mesh, vertex_of(mesh, face, j)),
+                                               mt_mesh_position(mesh, vertex_of(mesh, face, k)))) {
                     return false;
                 }
             }
@@ -216,6 +220,8 @@ bool test_face_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index face
         return is_duplicate(mesh, face);
     case MT_DEFECT_ZERO_AREA_FACE:
         return is_zero_area(mesh, face);
+    case MT_DEFECT_INSIDE_OUT_COMPONENT:
+        return test_component_is_inside_out(mesh, face);
     default:
         return false;
     }

@@ -43,10 +43,12 @@ static bool reference_agrees(const mt_mesh *mesh, const mt_defect *defect)
     case MT_DEFECT_NON_FINITE_VERTEX:
     case MT_DEFECT_NON_MANIFOLD_VERTEX:
     case MT_DEFECT_ISOLATED_VERTEX:
+    case MT_DEFECT_BOUNDARY_PINCH:
         return defect->vertex_count == 1 && test_vertex_is_defect(mesh, defect->kind, defect->vertices[0]);
     case MT_DEFECT_DEGENERATE_FACE:
     case MT_DEFECT_DUPLICATE_FACE:
     case MT_DEFECT_ZERO_AREA_FACE:
+    case MT_DEFECT_INSIDE_OUT_COMPONENT:
         return defect->face_count >= 1 &&
                test_face_is_defect(mesh, defect->kind, defect->faces[defect->face_count - 1]);
     case MT_DEFECT_SELF_INTERSECTION: /* not asked for where the reference is */
@@ -90,17 +92,22 @@ static void expect_lists(const mt_mesh *mesh, const mt_manifold_report *report, 
     }
 }
 
-static void expect_reference(mt_context *context, const mt_mesh *mesh, uint64_t limit)
+/* `size` is the largest coordinate's; the reference can tell signs of volumes only of coordinates of few bits. */
+static void expect_reference(mt_context *context, const mt_mesh *mesh, uint64_t limit, double size, bool has_few_bits)
 {
     mt_manifold_report report, expected;
-    mt_manifold_options options = {.defects_per_kind = limit};
+    mt_manifold_options options = {.defects_per_kind = limit, .inside_out = has_few_bits};
     assert_int_equal(mt_check_manifold(context, mesh, &options, &report), MT_OK);
     test_manifold_reference(mesh, &expected);
+    if (!has_few_bits) {
+        expected.defect_counts[MT_DEFECT_INSIDE_OUT_COMPONENT] = 0;
+    }
     expect_same_counts(&report, &expected);
     expect_lists(mesh, &report, limit);
     if (!mesh->face_offsets && mesh->face_size == 3) {
-        assert_true(fabs(report.area - expected.area) <= 1e-13 * (1 + expected.area));
-        assert_true(!report.has_volume || fabs(report.volume - expected.volume) <= 1e-12 * (1 + expected.area));
+        assert_true(fabs(report.area - expected.area) <= 1e-13 * (size * size + expected.area));
+        assert_true(!report.has_volume ||
+                    fabs(report.volume - expected.volume) <= 1e-12 * (size * size + expected.area) * size);
     }
     mt_manifold_report_release(context, &report);
 }
@@ -112,7 +119,7 @@ static void soups_agree_with_the_reference(void **state)
     for (int i = 0; i < 6000; i++) {
         mt_context *context = test_context_with_threads(i % 4 ? 1 : 3);
         mt_mesh *mesh = test_soup(context, &random);
-        expect_reference(context, mesh, i % 5 ? UINT64_MAX : 1);
+        expect_reference(context, mesh, i % 5 ? UINT64_MAX : 1, 1, true);
         mt_mesh_destroy(context, mesh);
         test_context_end(context);
     }
@@ -125,10 +132,38 @@ static void patches_agree_with_the_reference(void **state)
     test_random random = {815};
     for (int i = 0; i < 400; i++) {
         mt_mesh *mesh = test_patch(context, &random);
-        expect_reference(context, mesh, UINT64_MAX);
+        expect_reference(context, mesh, UINT64_MAX, 1, true);
         mt_mesh_destroy(context, mesh);
     }
     test_context_end(context);
+}
+
+/* Far from the origin, where products lose what the differences have, and so small or large that products under- and
+ * overflow. */
+static void moved_and_scaled_meshes_agree_with_the_reference(void **state)
+{
+    (void)state;
+    static const struct {
+        double offset, factor, size;
+        bool has_few_bits;
+    } changes[] = {{1e7, 1, 1e7, true},
+                   {1e7 + 1.0 / 3, 1, 1e7, false},
+                   {0, 1e-30, 1e-30, false},
+                   {0, 1e30, 1e30, false},
+                   {0, 0x1p-1000, 0x1p-340, true}};
+    test_random random = {1e7};
+    for (int i = 0; i < 1500; i++) {
+        mt_context *context = test_context();
+        mt_mesh *mesh = i % 4 ? test_soup(context, &random) : test_patch(context, &random);
+        int change = i % (int)(sizeof changes / sizeof changes[0]);
+        double *coordinates = mesh->positions;
+        for (size_t c = 0; c < 3 * (size_t)mesh->vertex_count; c++) {
+            coordinates[c] = coordinates[c] * changes[change].factor + changes[change].offset;
+        }
+        expect_reference(context, mesh, UINT64_MAX, changes[change].size, changes[change].has_few_bits);
+        mt_mesh_destroy(context, mesh);
+        test_context_end(context);
+    }
 }
 
 /* A shape and what must be said of it. */
@@ -296,7 +331,7 @@ static void known_shapes_are_known(void **state)
                      report.defect_counts[shape->kind], mt_defect_key(shape->kind));
         }
         mt_manifold_report_release(context, &report);
-        expect_reference(context, mesh, UINT64_MAX);
+        expect_reference(context, mesh, UINT64_MAX, 1, true);
         mt_mesh_destroy(context, mesh);
     }
     test_context_end(context);
@@ -564,7 +599,8 @@ static void every_failed_allocation_is_clean(void **state)
         mt_mesh *mesh = test_soup(maker, &random);
         mt_context_options options = {.failing_allocation = nth};
         mt_context *context = mt_context_create(&options);
-        mt_manifold_options how = {.self_intersections = nth % 2 == 0, .as_welded = nth % 3 == 0};
+        mt_manifold_options how = {
+            .self_intersections = nth % 2 == 0, .inside_out = nth % 5 != 0, .as_welded = nth % 3 == 0};
         mt_manifold_report report;
         mt_status status = mt_check_manifold(context, mesh, &how, &report);
         assert_true(status == MT_OK || status == MT_ERROR_OUT_OF_MEMORY);
@@ -584,6 +620,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(soups_agree_with_the_reference),
         cmocka_unit_test(patches_agree_with_the_reference),
+        cmocka_unit_test(moved_and_scaled_meshes_agree_with_the_reference),
         cmocka_unit_test(known_shapes_are_known),
         cmocka_unit_test(kinds_have_names),
         cmocka_unit_test(volume_holds_far_away_and_at_all_scales),

@@ -196,6 +196,41 @@ static void collinear_is_exact(void **state)
     assert_false(mt_collinear(zero, tiny, huge));
 }
 
+static mt_vec3 any_point(test_random *random, int exponents)
+{
+    double x[3];
+    for (int axis = 0; axis < 3; axis++) {
+        x[axis] =
+            ldexp(test_random_unit(random) - 0.5, (int)test_random_below(random, (uint64_t)exponents) * 2 - exponents);
+    }
+    return mt_vec3_make(x[0], x[1], x[2]);
+}
+
+/* About its last corner a tetrahedron's surface is one triangle, whose determinant is the orientation. */
+static void volume_of_a_tetrahedron_has_the_sign_of_its_orientation(void **state)
+{
+    (void)state;
+    test_random random = {1859};
+    int zero_count = 0;
+    for (int i = 0; i < 20000; i++) {
+        int exponents = i % 3 == 0 ? 1 : i % 3 == 1 ? 60 : 1000;
+        mt_vec3 a = any_point(&random, exponents), b = any_point(&random, exponents);
+        mt_vec3 c = any_point(&random, exponents), d = i % 7 ? any_point(&random, exponents) : mt_vec3_add(a, b);
+        if (i % 5 == 0) {
+            d = mt_vec3_scale(c, 0.5); /* with a = -b in one plane */
+            b = mt_vec3_scale(a, -1);
+        }
+        mt_vec3 surface[] = {a, b, c, a, d, b, b, d, c, c, d, a};
+        int sign = mt_volume_sign(surface, 4);
+        assert_int_equal(sign, mt_orient3d(a, b, c, d));
+        zero_count += sign == 0;
+    }
+    assert_in_range(zero_count, 3000, 8000);
+    mt_vec3 bad[] = {{NAN, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    assert_int_equal(mt_volume_sign(bad, 1), 0);
+    assert_int_equal(mt_volume_sign(bad, 0), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -208,6 +243,7 @@ int main(void)
         cmocka_unit_test(differences_and_products_that_overflow_keep_their_sign),
         cmocka_unit_test(not_finite_is_zero),
         cmocka_unit_test(collinear_is_exact),
+        cmocka_unit_test(volume_of_a_tetrahedron_has_the_sign_of_its_orientation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,8 +20,10 @@ typedef enum mt_defect_kind {
     MT_DEFECT_DEGENERATE_FACE,
     MT_DEFECT_DUPLICATE_FACE,
     MT_DEFECT_NON_MANIFOLD_EDGE,
+    MT_DEFECT_BOUNDARY_PINCH, /* a vertex at which three boundary edges or more end */
     MT_DEFECT_NON_MANIFOLD_VERTEX,
     MT_DEFECT_MISORIENTED_EDGE,
+    MT_DEFECT_INSIDE_OUT_COMPONENT, /* closed, oriented, its signed volume below 0; listed by its first face */
     MT_DEFECT_ZERO_AREA_FACE,
     MT_DEFECT_SELF_INTERSECTION, /* a pair of faces */
     MT_DEFECT_ISOLATED_VERTEX,
@@ -45,6 +47,7 @@ typedef struct mt_defect {
 typedef struct mt_manifold_options {
     uint64_t defects_per_kind; /* how many of each kind are listed; 0: 100; UINT64_MAX: all */
     bool self_intersections;   /* search for them; many times the cost of all the rest */
+    bool inside_out;           /* look for components that are */
     bool as_welded;            /* look beside it at the mesh welded; the mesh itself stays as it is */
 } mt_manifold_options;
 
@@ -72,6 +75,7 @@ typedef struct mt_manifold_report {
     bool has_volume;
     double volume;               /* signed */
     bool has_self_intersections; /* whether they were searched for */
+    bool has_inside_out;
     bool has_as_welded;
     mt_manifold_welded as_welded;
     size_t defect_list_count;
