@@ -44,11 +44,25 @@ typedef struct mt_surface_node {
     uint32_t children[MT_WIDTH];
 } mt_surface_node;
 
+/* Where each kind's numbers begin. */
+typedef struct mt_surface_numbering {
+    uint64_t wires, points, vertices, end;
+} mt_surface_numbering;
+mt_surface_numbering mt_surface_number(const mt_mesh *mesh, const mt_triangulation *triangulation);
+
+/* What an element consists of: three vertices for a triangle, two and the last again for a segment, one thrice. */
+typedef struct mt_surface_element {
+    mt_index vertices[3];
+} mt_surface_element;
+mt_surface_element mt_surface_element_of(const mt_mesh *mesh, const mt_triangulation *triangulation,
+                                         const mt_surface_numbering *numbering, uint64_t number);
+
 struct mt_surface_tree {
     const mt_mesh *mesh;
     const mt_triangulation *triangulation;
     mt_ray_space space;
     unsigned elements;
+    mt_surface_numbering numbering;
     mt_index count, left_out;
     mt_index node_count; /* 0 when there are no elements; else node 0 is the root */
     mt_surface_node *nodes;
@@ -57,27 +71,13 @@ struct mt_surface_tree {
     uint32_t *words;
 };
 
-/* What an element consists of: three vertices for a triangle, two and the last again for a segment, one thrice. */
-typedef struct mt_surface_element {
-    mt_index vertices[3];
-} mt_surface_element;
-
-/* Where each kind's numbers begin; a kind that the tree does not hold has none. */
-typedef struct mt_surface_numbering {
-    mt_index wires, points, vertices, end;
-} mt_surface_numbering;
-mt_surface_numbering mt_surface_number(const mt_mesh *mesh, const mt_triangulation *triangulation);
-
 /* Box of an element, in space. */
 typedef struct mt_surface_box {
     float lower[3];
     mt_index number;
     float upper[3];
-    mt_index wire; /* that a segment belongs to */
+    mt_index unused;
 } mt_surface_box;
-
-/* The element's corners rounded to float, in space. */
-void mt_surface_corners(const mt_surface_tree *tree, mt_index number, float corners[3][3]);
 
 /* Boxes of all finite elements, in the order of their numbers; sets the tree's counts. Freed by the caller. */
 mt_status mt_surface_boxes_create(mt_context *context, mt_surface_tree *tree, mt_surface_box **out);

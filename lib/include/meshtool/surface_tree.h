@@ -12,8 +12,9 @@
 extern "C" {
 #endif
 
-/* What of a mesh stands in the tree. Elements are numbered through: the triangles of the triangulation, then the
- * segments of the wires one after the other, then the point elements, then the vertices. */
+/* What of a mesh stands in the tree. Elements are numbered through: the triangles of the triangulation; then the
+ * segments of the wires, by the place of their first vertex in wire_vertices; then the point elements; then the
+ * vertices. */
 typedef enum mt_surface_elements {
     MT_SURFACE_TRIANGLES = 1,
     MT_SURFACE_WIRES = 2,
