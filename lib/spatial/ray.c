@@ -3,8 +3,8 @@
  * Watertight: the corners, floats, are sheared in float so that the ray becomes an axis; two triangles shear a shared
  * corner to the same bits. Products of two floats are exact in double, so the sign of their difference is that of the
  * exact edge function, and a point on the plane lies in or on at least one of the triangles around it. Exact: the same
- * decision by exact predicates in space. Both then solve t and weights in double from unsheared corners; weights that
- * rounding made negative become 0, so that t stays within the corners' range and boxes can be culled by it.
+ * decision by exact predicates in space. Both then solve t and weights in double; where the ray misses the unrounded
+ * triangle, at its nearest point, so that the hit lies in the triangle's box and boxes can be culled by t.
  *
  * Known failure: a triangle whose sheared corners lie on a line is missed, also where a ray in its plane crosses it. */
 #include <meshtool/predicates.h>
@@ -112,7 +112,8 @@ static int decide_watertight(const mt_ray_setup *setup, const mt_ray_triangle *t
     double u = MT_RAY_EDGE(x[1], y[1], x[2], y[2]);
     double v = MT_RAY_EDGE(x[2], y[2], x[0], y[0]);
     double w = MT_RAY_EDGE(x[0], y[0], x[1], y[1]);
-    return common_sign(u, v, w);
+    /* A corner that is not finite makes two of the edge functions so. */
+    return u + v + w < INFINITY && u + v + w > -INFINITY ? common_sign(u, v, w) : 0;
 }
 
 static mt_vec3 corner_by_axes(const mt_ray_setup *setup, const double corner[3])
@@ -136,29 +137,60 @@ static int decide_exactly(const mt_ray_setup *setup, const mt_ray_triangle *tria
                        sign * mt_orient3d(a, b, end, o));
 }
 
+/* A triangle's corners in double, sheared so that the ray is the third axis. */
+typedef struct sheared {
+    double x[3], y[3], z[3];
+} sheared;
+
+static sheared shear_corners(const mt_ray_setup *setup, const mt_ray_triangle *triangle)
+{
+    sheared s;
+    for (int i = 0; i < 3; i++) {
+        const double *p = triangle->corners[i];
+        s.z[i] = p[setup->axes[2]] - setup->origin[2];
+        s.x[i] = MT_RAY_SHEAR(p[setup->axes[0]] - setup->origin[0], s.z[i], setup->shear[0]);
+        s.y[i] = MT_RAY_SHEAR(p[setup->axes[1]] - setup->origin[1], s.z[i], setup->shear[1]);
+    }
+    return s;
+}
+
+/* Weights of the point on the sides that is nearest to the ray: for slivers that the ray misses by no more than what
+ * rounding moved their corners. Any other point could lie far along the sliver, outside of boxes that the ray meets. */
+static void weigh_sides(const sheared *s, double weights[3])
+{
+    double least = INFINITY;
+    for (int i = 0; i < 3; i++) {
+        int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
+        double ex = s->x[j] - s->x[i], ey = s->y[j] - s->y[i], square = ex * ex + ey * ey;
+        double along = -(s->x[i] * ex + s->y[i] * ey) / square;
+        along = !(along > 0) ? 0 : along < 1 ? along : 1;
+        double x = s->x[i] + along * ex, y = s->y[i] + along * ey, distance = x * x + y * y;
+        if (distance < least) {
+            least = distance;
+            weights[i] = 1 - along;
+            weights[j] = along;
+            weights[k] = 0;
+        }
+    }
+}
+
 /* Weights of the corners and t for a triangle that is hit, as decided with that sign. */
 static void solve(const mt_ray_setup *setup, const mt_ray_triangle *triangle, int sign, mt_ray_hit *hit)
 {
-    double x[3], y[3], z[3];
-    for (int i = 0; i < 3; i++) {
-        const double *p = triangle->corners[i];
-        z[i] = p[setup->axes[2]] - setup->origin[2];
-        x[i] = MT_RAY_SHEAR(p[setup->axes[0]] - setup->origin[0], z[i], setup->shear[0]);
-        y[i] = MT_RAY_SHEAR(p[setup->axes[1]] - setup->origin[1], z[i], setup->shear[1]);
+    sheared s = shear_corners(setup, triangle);
+    double u = sign * MT_RAY_EDGE(s.x[1], s.y[1], s.x[2], s.y[2]);
+    double v = sign * MT_RAY_EDGE(s.x[2], s.y[2], s.x[0], s.y[0]);
+    double w = sign * MT_RAY_EDGE(s.x[0], s.y[0], s.x[1], s.y[1]);
+    double sum = u + v + w;
+    if (u >= 0 && v >= 0 && w >= 0 && sum > 0) {
+        hit->weights[0] = u / sum;
+        hit->weights[1] = v / sum;
+        hit->weights[2] = w / sum;
+    } else {
+        weigh_sides(&s, hit->weights);
     }
-    double sum = 0, depth = 0;
-    for (int i = 0; i < 3; i++) {
-        int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-        double weight = sign * MT_RAY_EDGE(x[j], y[j], x[k], y[k]);
-        hit->weights[i] = weight > 0 ? weight : 0;
-        sum += hit->weights[i];
-    }
-    bool is_lost = !(sum > 0); /* the triangle turns over, or vanishes, within rounding: any of its points will do */
-    for (int i = 0; i < 3; i++) {
-        hit->weights[i] = is_lost ? 1.0 / 3 : hit->weights[i] / sum;
-        depth += hit->weights[i] * z[i];
-    }
-    double low = fmin(fmin(z[0], z[1]), z[2]), high = fmax(fmax(z[0], z[1]), z[2]);
+    double depth = hit->weights[0] * s.z[0] + hit->weights[1] * s.z[1] + hit->weights[2] * s.z[2];
+    double low = fmin(fmin(s.z[0], s.z[1]), s.z[2]), high = fmax(fmax(s.z[0], s.z[1]), s.z[2]);
     depth = depth < low ? low : depth > high ? high : depth;
     hit->t = (setup->begin + depth * setup->reciprocal) * setup->t_factor;
 }
@@ -177,7 +209,7 @@ static bool hit_fast(const mt_ray_setup *setup, const mt_ray_triangle *triangle,
     MT_RAY_MOELLER_TRUMBORE(setup->float_direction, from_a, ab, ac, p, q, determinant, u, v, t);
     float sign = determinant < 0 ? -1.0f : 1.0f;
     u *= sign, v *= sign, determinant *= sign;
-    if (!(determinant > 0 && u >= 0 && v >= 0 && u + v <= determinant)) {
+    if (!(determinant > 0 && determinant < INFINITY && u >= 0 && v >= 0 && u + v <= determinant)) {
         return false;
     }
     hit->weights[1] = (double)u / (double)determinant;

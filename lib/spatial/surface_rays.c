@@ -7,9 +7,12 @@
  * instead of multiplied to the distance, which costs nothing in the loop). */
 #include <meshtool/surface_tree.h>
 
-#include "lib/spatial/lanes.h"
+#include <meshtool/clones.h>
+
 #include "lib/spatial/ray_formulas.h"
 #include "lib/spatial/surface_tree.h"
+
+#include <string.h>
 
 /* Of the ray's slack: the slab's own subtraction, reciprocal and product round by half a unit each, the slack is eight.
  */
@@ -57,94 +60,104 @@ static void start_walk(ray_walk *walk)
     walk->best = mt_ray_no_hit();
 }
 
-/* Where the ray enters each child; returns the bits of those that it meets. */
-MT_INLINE uint32_t enter_children(const ray_walk *walk, const mt_surface_node *node, lanes *near)
+/* Loops over lanes with a scalar body, which compilers turn into vectors, are the portable form of the tests below. */
+MT_INLINE uint32_t bits_of(const int32_t passes[MT_WIDTH])
 {
-    lanes far, x;
-    *near = walk->begin + (lanes){0};
-    far = walk->limit + (lanes){0};
-    for (int axis = 0; axis < 3; axis++) {
-        lanes_load(node->planes[walk->near_planes[axis]], &x);
-        x = (x - walk->near_origin[axis]) * walk->reciprocal[axis];
-        lanes_maximum(&x, near, near);
-        lanes_load(node->planes[walk->far_planes[axis]], &x);
-        x = (x - walk->far_origin[axis]) * walk->reciprocal[axis];
-        lanes_minimum(&x, &far, &far);
+    int32_t bits = 0;
+    for (int lane = 0; lane < MT_WIDTH; lane++) {
+        bits |= passes[lane];
     }
-    lane_mask met = *near <= far;
-    return lanes_bits(&met);
+    return (uint32_t)bits;
 }
 
-/* The corners of a leaf's triangles relative to the ray's origin, by the ray's axes. */
-MT_INLINE void load_corner(const ray_walk *walk, const float *words, mt_index count, int corner, lanes out[3])
+/* Where the ray enters each child; returns the bits of those that it meets. A NaN leaves the other operand. */
+MT_INLINE uint32_t enter_children(const ray_walk *walk, const mt_surface_node *node, float near[MT_WIDTH])
 {
-    for (int i = 0; i < 3; i++) {
-        lanes_load(words + (size_t)(3 * corner + walk->setup.axes[i]) * count, &out[i]);
-        out[i] = out[i] - walk->setup.float_origin[i];
+    const float *nx = node->planes[walk->near_planes[0]], *fx = node->planes[walk->far_planes[0]];
+    const float *ny = node->planes[walk->near_planes[1]], *fy = node->planes[walk->far_planes[1]];
+    const float *nz = node->planes[walk->near_planes[2]], *fz = node->planes[walk->far_planes[2]];
+    const float nox = walk->near_origin[0], noy = walk->near_origin[1], noz = walk->near_origin[2];
+    const float fox = walk->far_origin[0], foy = walk->far_origin[1], foz = walk->far_origin[2];
+    const float rx = walk->reciprocal[0], ry = walk->reciprocal[1], rz = walk->reciprocal[2];
+    const float begin = walk->begin, limit = walk->limit;
+    int32_t passes[MT_WIDTH];
+    for (int lane = 0; lane < MT_WIDTH; lane++) {
+        float x = (nx[lane] - nox) * rx, y = (ny[lane] - noy) * ry, z = (nz[lane] - noz) * rz;
+        float enters = x > begin ? x : begin;
+        enters = y > enters ? y : enters;
+        enters = z > enters ? z : enters;
+        x = (fx[lane] - fox) * rx, y = (fy[lane] - foy) * ry, z = (fz[lane] - foz) * rz;
+        float leaves = x < limit ? x : limit;
+        leaves = y < leaves ? y : leaves;
+        leaves = z < leaves ? z : leaves;
+        near[lane] = enters;
+        passes[lane] = enters <= leaves ? 1 << lane : 0;
     }
+    return bits_of(passes);
 }
 
-/* Edge functions of the sheared corners, whose signs are right or zero. With a margin: what rounding of vertices and
- * shear may have taken from each is allowed for. */
-MT_INLINE uint32_t filter_edges(const ray_walk *walk, const float *words, mt_index count, bool with_margin)
+/* The same coordinate of a leaf's corners, in the order of the ray's axes. */
+typedef struct leaf_view {
+    const float *corners[3][3];
+} leaf_view;
+
+MT_INLINE leaf_view view_leaf(const ray_walk *walk, const float *words, mt_index count)
 {
-    lanes x[3], y[3], low = {0}, high = {0};
+    leaf_view view;
     for (int corner = 0; corner < 3; corner++) {
-        lanes p[3];
-        load_corner(walk, words, count, corner, p);
-        x[corner] = MT_RAY_SHEAR(p[0], p[2], walk->setup.float_shear[0]);
-        y[corner] = MT_RAY_SHEAR(p[1], p[2], walk->setup.float_shear[1]);
-    }
-    for (int i = 0; i < 3; i++) {
-        int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-        lanes edge = MT_RAY_EDGE(x[j], y[j], x[k], y[k]), margin = {0};
-        if (with_margin) {
-            float slack = walk->setup.slack;
-            lanes size = {0}, part[4] = {x[j], y[j], x[k], y[k]};
-            for (int m = 0; m < 4; m++) {
-                lanes negative = -part[m];
-                lanes_maximum(&negative, &part[m], &part[m]);
-                size += part[m];
-            }
-            margin = slack * size + size * size * 0x1p-22f + 2 * slack * slack;
-        }
-        lanes least = edge - margin, most = edge + margin;
-        if (i) {
-            lanes_minimum(&most, &low, &low);
-            lanes_maximum(&least, &high, &high);
-        } else {
-            low = most;
-            high = least;
+        for (int i = 0; i < 3; i++) {
+            view.corners[corner][i] = words + (size_t)(3 * corner + walk->setup.axes[i]) * count;
         }
     }
-    lane_mask passes = (low >= 0) | (high <= 0);
-    return lanes_bits(&passes);
+    return view;
+}
+
+/* Edge functions of the sheared corners. Without a margin their signs are right or zero; the margin, a multiple of the
+ * slack, allows for what rounding took from vertices, origin and shear. */
+MT_INLINE uint32_t filter_edges(const ray_walk *walk, const leaf_view *view, float slack)
+{
+    const float ox = walk->setup.float_origin[0], oy = walk->setup.float_origin[1], oz = walk->setup.float_origin[2];
+    const float sx = walk->setup.float_shear[0], sy = walk->setup.float_shear[1];
+    int32_t passes[MT_WIDTH];
+    for (int lane = 0; lane < MT_WIDTH; lane++) {
+        float az = view->corners[0][2][lane] - oz, bz = view->corners[1][2][lane] - oz,
+              cz = view->corners[2][2][lane] - oz;
+        float ax = MT_RAY_SHEAR(view->corners[0][0][lane] - ox, az, sx);
+        float ay = MT_RAY_SHEAR(view->corners[0][1][lane] - oy, az, sy);
+        float bx = MT_RAY_SHEAR(view->corners[1][0][lane] - ox, bz, sx);
+        float by = MT_RAY_SHEAR(view->corners[1][1][lane] - oy, bz, sy);
+        float cx = MT_RAY_SHEAR(view->corners[2][0][lane] - ox, cz, sx);
+        float cy = MT_RAY_SHEAR(view->corners[2][1][lane] - oy, cz, sy);
+        float u = MT_RAY_EDGE(bx, by, cx, cy), v = MT_RAY_EDGE(cx, cy, ax, ay), w = MT_RAY_EDGE(ax, ay, bx, by);
+        float low = u < v ? u : v, high = u > v ? u : v;
+        low = w < low ? w : low;
+        high = w > high ? w : high;
+        float size = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) + fabsf(cx) + fabsf(cy);
+        float margin = slack * (size + slack) * 2;
+        passes[lane] = (low >= -margin) | (high <= margin) ? 1 << lane : 0;
+    }
+    return bits_of(passes);
 }
 
 /* The same operations as the hit function's, so that nothing is lost. */
-MT_INLINE uint32_t filter_fast(const ray_walk *walk, const float *words, mt_index count)
+MT_INLINE uint32_t filter_fast(const ray_walk *walk, const leaf_view *view)
 {
-    lanes direction[3], from_a[3], ab[3], ac[3], p[3], q[3], determinant, u, v, t;
-    for (int i = 0; i < 3; i++) {
-        lanes a;
-        int axis = walk->setup.axes[i];
-        lanes_load(words + (size_t)axis * count, &a);
-        lanes_load(words + (size_t)(3 + axis) * count, &ab[i]);
-        lanes_load(words + (size_t)(6 + axis) * count, &ac[i]);
-        ab[i] = ab[i] - a;
-        ac[i] = ac[i] - a;
-        from_a[i] = walk->setup.float_origin[i] - a;
-        direction[i] = walk->setup.float_direction[i] + (lanes){0};
+    int32_t passes[MT_WIDTH];
+    for (int lane = 0; lane < MT_WIDTH; lane++) {
+        float from_a[3], ab[3], ac[3], p[3], q[3], determinant, u, v, t;
+        for (int i = 0; i < 3; i++) {
+            float a = view->corners[0][i][lane];
+            ab[i] = view->corners[1][i][lane] - a;
+            ac[i] = view->corners[2][i][lane] - a;
+            from_a[i] = walk->setup.float_origin[i] - a;
+        }
+        MT_RAY_MOELLER_TRUMBORE(walk->setup.float_direction, from_a, ab, ac, p, q, determinant, u, v, t);
+        (void)t;
+        float sign = determinant < 0 ? -1.0f : 1.0f;
+        u *= sign, v *= sign, determinant *= sign;
+        passes[lane] = (determinant > 0) & (u >= 0) & (v >= 0) & (u + v <= determinant) ? 1 << lane : 0;
     }
-    MT_RAY_MOELLER_TRUMBORE(direction, from_a, ab, ac, p, q, determinant, u, v, t);
-    (void)t;
-    lane_mask turned = determinant < 0;
-    lanes sign = (lanes)(turned & (lane_mask)((lanes){0} - 2.0f)) + 1.0f;
-    u = u * sign;
-    v = v * sign;
-    determinant = determinant * sign;
-    lane_mask passes = (determinant > 0) & (u >= 0) & (v >= 0) & (u + v <= determinant);
-    return lanes_bits(&passes);
+    return bits_of(passes);
 }
 
 /* Asks the hit function of what passed the filter. Returns true when the walk is over. */
@@ -182,16 +195,17 @@ MT_INLINE bool visit_leaf(ray_walk *walk, uint32_t child)
     mt_index count = mt_surface_leaf_count(child);
     const float *words =
         (const float *)(const void *)(walk->tree->words + (size_t)mt_surface_leaf_first(child) * MT_SURFACE_WORDS);
+    const leaf_view view = view_leaf(walk, words, count);
     uint32_t bits = 0;
     switch (walk->setup.profile) {
     case MT_RAY_WATERTIGHT:
-        bits = filter_edges(walk, words, count, false);
+        bits = filter_edges(walk, &view, 0);
         break;
     case MT_RAY_EXACT:
-        bits = filter_edges(walk, words, count, true);
+        bits = filter_edges(walk, &view, walk->setup.slack);
         break;
     case MT_RAY_FAST:
-        bits = filter_fast(walk, words, count);
+        bits = filter_fast(walk, &view);
         break;
     }
     bits &= (1u << count) - 1;
@@ -199,13 +213,13 @@ MT_INLINE bool visit_leaf(ray_walk *walk, uint32_t child)
 }
 
 /* Pushes the children met, the nearest on top. */
-MT_INLINE size_t push_children(const mt_surface_node *node, const lanes *near, uint32_t bits, pending *stack,
+MT_INLINE size_t push_children(const mt_surface_node *node, const float near[MT_WIDTH], uint32_t bits, pending *stack,
                                size_t depth)
 {
     size_t bottom = depth;
     for (; bits; bits &= bits - 1) {
         int slot = __builtin_ctz(bits);
-        pending item = {(*near)[slot], node->children[slot]};
+        pending item = {near[slot], node->children[slot]};
         size_t at = depth++;
         for (; at > bottom && stack[at - 1].near < item.near; at--) {
             stack[at] = stack[at - 1];
@@ -232,9 +246,9 @@ MT_CLONES static void walk_tree(ray_walk *walk)
             continue;
         }
         const mt_surface_node *node = &walk->tree->nodes[item.child];
-        lanes near;
-        uint32_t bits = enter_children(walk, node, &near);
-        depth = push_children(node, &near, bits, stack, depth);
+        float near[MT_WIDTH];
+        uint32_t bits = enter_children(walk, node, near);
+        depth = push_children(node, near, bits, stack, depth);
     }
 }
 

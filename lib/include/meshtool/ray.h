@@ -91,6 +91,15 @@ typedef struct mt_ray_triangle {
     double corners[3][3];
 } mt_ray_triangle;
 
+/* To float and back. The float goes through memory: gcc 12 drops the rounding from (double)(float)x where it makes
+ * vectors of several (tests/bugs/test_ray_rounding.c). */
+static inline double mt_ray_round(double x)
+{
+    float rounded = (float)x;
+    __asm__("" : "+m"(rounded));
+    return (double)rounded;
+}
+
 static inline void mt_ray_triangle_load(const mt_ray_space *space, const mt_mesh *mesh,
                                         const mt_triangulation *triangulation, mt_index triangle,
                                         mt_ray_profile profile, mt_ray_triangle *out)
@@ -99,9 +108,9 @@ static inline void mt_ray_triangle_load(const mt_ray_space *space, const mt_mesh
         mt_index vertex = mesh->corner_vertices[mt_triangulation_corner(triangulation, triangle, side)];
         mt_vec3 p = mt_ray_space_point(space, mt_mesh_position(mesh, vertex));
         bool is_exact = profile == MT_RAY_EXACT;
-        out->corners[side][0] = is_exact ? p.x : (double)(float)p.x;
-        out->corners[side][1] = is_exact ? p.y : (double)(float)p.y;
-        out->corners[side][2] = is_exact ? p.z : (double)(float)p.z;
+        out->corners[side][0] = is_exact ? p.x : mt_ray_round(p.x);
+        out->corners[side][1] = is_exact ? p.y : mt_ray_round(p.y);
+        out->corners[side][2] = is_exact ? p.z : mt_ray_round(p.z);
     }
 }
 
