@@ -27,6 +27,10 @@ static void release_state(mt_context *context, mt_subdivide_state *state)
     for (mt_index i = 0; i < state->field_count; i++) {
         mt_free(context, state->fields[i].owned);
     }
+    for (mt_index i = 0; state->value_rules && i < state->topology_count; i++) {
+        mt_value_rules_release(context, &state->value_rules[i]);
+    }
+    mt_free(context, state->value_rules);
     mt_free(context, state->topologies);
     mt_free(context, state->fields);
     mt_subdivide_sharp_release(context, &state->sharp);
@@ -217,6 +221,7 @@ mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdiv
         return mt_mesh_copy(context, mesh, out);
     }
     settings.level_count += settings.level_count == 0;
+    settings.face_varying += settings.face_varying == MT_SUBDIVIDE_FACE_VARYING_AS_TAGGED;
     unsigned level_count = settings.level_count;
     if (level_count > MT_SUBDIVIDE_LEVEL_LIMIT) {
         return mt_fail(context, MT_ERROR_ARGUMENT, "%u levels are more than the %u that can be asked for", level_count,

@@ -112,7 +112,7 @@ static mt_status describe_faces(mt_context *context, const mt_mesh *mesh, mt_sub
 }
 
 /* One pass in the order of the corners: a scatter by several threads would need atomics, and costs more. */
-static mt_status find_vertex_corners(mt_context *context, mt_subdivide_topology *topology)
+mt_status mt_subdivide_find_vertex_corners(mt_context *context, mt_subdivide_topology *topology)
 {
     mt_index *corners = mt_allocate_array(context, topology->vertex_count, sizeof *corners);
     if (!corners) {
@@ -146,7 +146,7 @@ mt_status mt_subdivide_topology_of_mesh(mt_context *context, const mt_mesh *mesh
         status = rank_edges(context, topology);
     }
     if (status == MT_OK) {
-        status = find_vertex_corners(context, topology);
+        status = mt_subdivide_find_vertex_corners(context, topology);
     }
     if (status != MT_OK) {
         mt_subdivide_topology_release(context, topology);

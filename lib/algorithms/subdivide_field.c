@@ -27,7 +27,8 @@ static mt_index *identity(mt_context *context, mt_index count)
     return numbers;
 }
 
-static mt_status add_topology(mt_context *context, mt_subdivide_state *state, const mt_attribute *attribute)
+/* The values as the file numbers them: linear rules need no more. */
+static mt_status add_linear_topology(mt_context *context, mt_subdivide_state *state, const mt_attribute *attribute)
 {
     mt_subdivide_topology *topology = &state->topologies[state->topology_count];
     mt_attribute indexed = *attribute;
@@ -44,21 +45,47 @@ static mt_status add_topology(mt_context *context, mt_subdivide_state *state, co
         mt_free(context, numbers);
         return status;
     }
-    topology->owned[3] = numbers;
+    topology->owned[4] = numbers;
     state->topology_count++;
     return MT_OK;
 }
 
+/* Each vertex gets values of its own; *sources tells of each where it comes from. */
+static mt_status add_smooth_topology(mt_context *context, mt_subdivide_state *state, const mt_attribute *attribute,
+                                     mt_index **sources)
+{
+    mt_subdivide_topology *base = &state->topologies[0], *topology = &state->topologies[state->topology_count];
+    mt_attribute numbered = *attribute;
+    mt_status status =
+        mt_subdivide_number_values(context, base, attribute, &numbered.indices, sources, &numbered.value_count);
+    if (status != MT_OK) {
+        return status;
+    }
+    status = mt_subdivide_topology_of_values(context, base, &numbered, topology);
+    if (status != MT_OK) {
+        mt_free(context, numbered.indices);
+        return status;
+    }
+    topology->owned[4] = numbered.indices;
+    mt_index number = state->topology_count++;
+    status = mt_subdivide_find_vertex_corners(context, topology);
+    if (status == MT_OK) {
+        status = mt_value_rules_create(context, base, topology, &state->sharp, &state->settings,
+                                       &state->value_rules[number]);
+    }
+    return status;
+}
+
 /* The value of each element as numbers that the rules take; 0 where an element has none. */
-static void *widen_values(mt_context *context, const mt_attribute *attribute, mt_index count, mt_type type,
-                          bool *misses)
+static void *widen_values(mt_context *context, const mt_attribute *attribute, const mt_index *sources, mt_index count,
+                          mt_type type, bool *misses)
 {
     uint32_t width = attribute->component_count;
     bool by_value = attribute->domain == MT_DOMAIN_CORNER;
     mt_attribute wide = {.type = type, .component_count = width};
     wide.values = mt_allocate_array(context, count, width * mt_type_size(type));
     for (mt_index element = 0; wide.values && element < count; element++) {
-        mt_index value = by_value ? element : mt_attribute_value_index(attribute, element);
+        mt_index value = sources ? sources[element] : by_value ? element : mt_attribute_value_index(attribute, element);
         *misses = *misses || value == MT_NONE;
         for (uint32_t k = 0; k < width; k++) {
             mt_attribute_set(&wide, element, k, value == MT_NONE ? 0 : mt_attribute_get(attribute, value, k));
@@ -72,10 +99,12 @@ static bool is_float(mt_type type)
     return type == MT_F32 || type == MT_F64;
 }
 
+/* sources: per value of the field one of the attribute's; NULL: as they are. */
 static mt_status fill_field(mt_context *context, mt_subdivide_field *field, const mt_attribute *attribute,
-                            mt_index count)
+                            const mt_index *sources, mt_index count)
 {
-    bool in_place = is_float(attribute->type) && (attribute->domain == MT_DOMAIN_CORNER || !attribute->indices);
+    bool as_they_are = !sources && (attribute->domain == MT_DOMAIN_CORNER || !attribute->indices);
+    bool in_place = is_float(attribute->type) && as_they_are;
     field->component_count = attribute->component_count;
     if (in_place) {
         field->type = attribute->type;
@@ -85,11 +114,33 @@ static mt_status fill_field(mt_context *context, mt_subdivide_field *field, cons
     bool four_bytes = mt_type_size(attribute->type) == 4 && attribute->type != MT_F32;
     bool misses = false;
     field->type = attribute->type == MT_F64 || four_bytes ? MT_F64 : MT_F32;
-    field->values = field->owned = widen_values(context, attribute, count, field->type, &misses);
-    if (misses) {
+    field->values = field->owned = widen_values(context, attribute, sources, count, field->type, &misses);
+    if (misses && attribute->domain == MT_DOMAIN_VERTEX) {
         mt_warn(context, "vertices without a value of the attribute \"%s\" take part with 0", attribute->name);
     }
     return field->owned ? MT_OK : mt_context_error(context)->status;
+}
+
+static mt_status add_corner_field(mt_context *context, mt_subdivide_state *state, const mt_attribute *attribute,
+                                  mt_subdivide_field *field)
+{
+    mt_subdivide_face_varying option = state->settings.face_varying;
+    mt_index *sources = NULL;
+    field->topology = state->topology_count;
+    if (option == MT_SUBDIVIDE_FACE_VARYING_ALL) {
+        field->rule = MT_SUBDIVIDE_LINEAR;
+        mt_status status = add_linear_topology(context, state, attribute);
+        return status == MT_OK ? fill_field(context, field, attribute, NULL, attribute->value_count) : status;
+    }
+    bool still = option == MT_SUBDIVIDE_FACE_VARYING_BOUNDARIES;
+    field->rule = still ? MT_SUBDIVIDE_SMOOTH_BUT_BOUNDARY : MT_SUBDIVIDE_SMOOTH;
+    mt_status status = add_smooth_topology(context, state, attribute, &sources);
+    if (status == MT_OK) {
+        mt_index count = state->topologies[field->topology].vertex_count;
+        status = fill_field(context, field, attribute, sources, count);
+    }
+    mt_free(context, sources);
+    return status;
 }
 
 static mt_status add_field(mt_context *context, mt_subdivide_state *state, mt_index number)
@@ -98,16 +149,10 @@ static mt_status add_field(mt_context *context, mt_subdivide_state *state, mt_in
     mt_subdivide_field *field = &state->fields[state->field_count++];
     *field = (mt_subdivide_field){.attribute = number};
     if (attribute->domain == MT_DOMAIN_CORNER) {
-        mt_status status = add_topology(context, state, attribute);
-        if (status != MT_OK) {
-            return status;
-        }
-        field->topology = state->topology_count - 1;
-        field->rule = MT_SUBDIVIDE_LINEAR;
-        return fill_field(context, field, attribute, attribute->value_count);
+        return add_corner_field(context, state, attribute, field);
     }
     if (mt_semantic_interpolation(attribute->semantic, attribute->type) != MT_INTERPOLATE_NONE) {
-        return fill_field(context, field, attribute, state->mesh->vertex_count);
+        return fill_field(context, field, attribute, NULL, state->mesh->vertex_count);
     }
     field->rule = MT_SUBDIVIDE_ORIGIN;
     field->type = MT_U32;
@@ -126,6 +171,11 @@ mt_status mt_subdivide_fields_create(mt_context *context, mt_subdivide_state *st
     state->fields[0] = (mt_subdivide_field){
         .attribute = MT_NONE, .type = mesh->position_type, .component_count = 3, .values = mesh->positions};
     state->field_count = 1;
+    state->value_rules =
+        mt_allocate_array_zeroed(context, (uint64_t)mesh->attribute_count + 1, sizeof *state->value_rules);
+    if (!state->value_rules) {
+        return mt_context_error(context)->status;
+    }
     mt_status status = MT_OK;
     for (mt_index i = 0; status == MT_OK && i < mesh->attribute_count; i++) {
         if (mt_subdivide_carriage_of(&mesh->attributes[i]) == MT_SUBDIVIDE_CARRY_FIELD) {

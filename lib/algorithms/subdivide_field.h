@@ -2,7 +2,7 @@
 #ifndef LIB_ALGORITHMS_SUBDIVIDE_FIELD_H
 #define LIB_ALGORITHMS_SUBDIVIDE_FIELD_H
 
-#include "lib/algorithms/subdivide_sharp.h"
+#include "lib/algorithms/subdivide_value_rules.h"
 #include "lib/algorithms/subdivide_values.h"
 
 #include <meshtool/subdivide.h>
@@ -22,6 +22,7 @@ typedef struct mt_subdivide_state {
     const mt_mesh *mesh;
     mt_index topology_count;
     mt_subdivide_topology *topologies; /* 0: of the vertices; then one for each corner attribute that is mixed */
+    mt_value_rules *value_rules;       /* of each topology but the first */
     mt_index field_count;
     mt_subdivide_field *fields;    /* 0: the positions */
     mt_subdivide_options settings; /* with the mesh's tags where nothing was asked for; level_count at least 1 */

@@ -23,7 +23,10 @@ typedef struct level_plan {
     void **targets; /* per field its next values */
     void **owned;   /* those of them that are not the result's */
     mt_subdivide_patches patches;
-    mt_subdivide_sharp sharp; /* at the next level */
+    mt_subdivide_sharp sharp;        /* at the next level */
+    mt_index *vertex_images;         /* of the sharp vertices there */
+    mt_vertex_patch **value_patches; /* per topology, of values that stay */
+    mt_value_rules *value_rules;     /* at the next level */
 } level_plan;
 
 static mt_status create_plan(mt_context *context, const mt_subdivide_state *state, level_plan *plan)
@@ -36,10 +39,12 @@ static mt_status create_plan(mt_context *context, const mt_subdivide_state *stat
     plan->children = mt_allocate_array_zeroed(context, state->topology_count, sizeof *plan->children);
     plan->targets = mt_allocate_array_zeroed(context, state->field_count, sizeof *plan->targets);
     plan->owned = mt_allocate_array_zeroed(context, state->field_count, sizeof *plan->owned);
-    bool complete = plan->children && plan->targets && plan->owned &&
+    plan->value_patches = mt_allocate_array_zeroed(context, state->topology_count, sizeof *plan->value_patches);
+    plan->value_rules = mt_allocate_array_zeroed(context, state->topology_count, sizeof *plan->value_rules);
+    bool complete = plan->children && plan->targets && plan->owned && plan->value_patches && plan->value_rules &&
                     mt_subdivide_pass_init(context, face_count, loop_count, &plan->first) == MT_OK &&
                     mt_subdivide_pass_init(context, face_count, loop_count, &plan->second) == MT_OK &&
-                    mt_subdivide_pass_init(context, face_count, 2 * (size_t)state->field_count, &plan->third) == MT_OK;
+                    mt_subdivide_pass_init(context, face_count, 3 * (size_t)state->field_count, &plan->third) == MT_OK;
     return complete ? MT_OK : mt_context_error(context)->status;
 }
 
@@ -49,6 +54,13 @@ static void release_plan(mt_context *context, const mt_subdivide_state *state, l
     for (mt_index i = 0; plan->children && i < state->topology_count; i++) {
         mt_subdivide_topology_release(context, &plan->children[i]);
     }
+    for (mt_index i = 0; plan->value_patches && plan->value_rules && i < state->topology_count; i++) {
+        mt_free(context, plan->value_patches[i]);
+        mt_value_rules_release(context, &plan->value_rules[i]);
+    }
+    mt_free(context, plan->value_patches);
+    mt_free(context, plan->value_rules);
+    mt_free(context, plan->vertex_images);
     for (mt_index i = 0; plan->owned && i < state->field_count; i++) {
         mt_free(context, plan->owned[i]);
     }
@@ -60,6 +72,18 @@ static void release_plan(mt_context *context, const mt_subdivide_state *state, l
     mt_subdivide_pass_release(context, &plan->third);
     mt_subdivide_patches_release(context, &plan->patches);
     mt_subdivide_sharp_release(context, &plan->sharp);
+}
+
+/* Of a smooth field what does not follow the rule for all. */
+static void plan_patches(const mt_subdivide_state *state, mt_index number, const mt_subdivide_loop *values,
+                         level_plan *plan)
+{
+    const mt_subdivide_field *field = &state->fields[number];
+    const mt_value_rules *rules = &state->value_rules[field->topology];
+    bool wide = field->type == MT_F64;
+    mt_subdivide_patches_add(values, &state->sharp, &plan->patches, rules->apart, wide, &plan->third);
+    mt_subdivide_vertex_patches_add(values, plan->value_patches[field->topology], NULL,
+                                    (uint64_t)rules->fixed_count + rules->fading_count, wide, &plan->third);
 }
 
 /* The next values of a field: in the result where they can, else in memory of their own. */
@@ -80,10 +104,10 @@ static mt_status plan_field(mt_context *context, const mt_subdivide_state *state
     plan->targets[number] = target;
     mt_subdivide_values_plan(topology, field->rule, field->type, field->component_count, field->values, target,
                              &plan->first, &plan->second);
-    if (field->rule == MT_SUBDIVIDE_SMOOTH && state->sharp.vertex_count) {
-        mt_subdivide_loop values = {.source = field->values, .target = target, .stride = field->component_count};
-        mt_subdivide_patches_add(topology, &state->sharp, &plan->patches, NULL, &values, field->type == MT_F64,
-                                 &plan->third);
+    if (field->rule == MT_SUBDIVIDE_SMOOTH || field->rule == MT_SUBDIVIDE_SMOOTH_BUT_BOUNDARY) {
+        mt_subdivide_loop values = {.topology = topology, .source = field->values, .target = target};
+        values.stride = field->component_count;
+        plan_patches(state, number, &values, plan);
     }
     return MT_OK;
 }
@@ -95,13 +119,28 @@ static mt_status plan_sharp(mt_context *context, mt_subdivide_state *state, leve
         return MT_OK;
     }
     const mt_subdivide_topology *topology = &state->topologies[0];
-    mt_index *vertex_images = NULL;
     mt_status status = mt_subdivide_sharp_plan(context, topology, &state->sharp, &plan->patches);
     if (status == MT_OK) {
-        status =
-            mt_subdivide_sharp_refine(context, topology, &state->sharp, &plan->patches, &plan->sharp, &vertex_images);
+        status = mt_subdivide_sharp_refine(context, topology, &state->sharp, &plan->patches, &plan->sharp,
+                                           &plan->vertex_images);
     }
-    mt_free(context, vertex_images);
+    return status;
+}
+
+static mt_status plan_value_rules(mt_context *context, const mt_subdivide_state *state, mt_index number,
+                                  level_plan *plan)
+{
+    const mt_value_rules *rules = &state->value_rules[number];
+    const mt_subdivide_topology *topology = &state->topologies[number];
+    if (!rules->smooth) {
+        return MT_OK;
+    }
+    mt_status status = mt_value_rules_plan(context, topology, &state->sharp, plan->patches.halves, rules,
+                                           &plan->value_patches[number]);
+    if (status == MT_OK) {
+        status = mt_value_rules_refine(context, topology, &state->sharp, plan->patches.halves, rules, &plan->sharp,
+                                       plan->vertex_images, &plan->value_rules[number]);
+    }
     return status;
 }
 
@@ -133,6 +172,11 @@ static void advance_state(mt_context *context, mt_subdivide_state *state, level_
     for (mt_index i = 0; i < state->topology_count; i++) {
         mt_subdivide_topology_release(context, &state->topologies[i]);
     }
+    for (mt_index i = 1; i < state->topology_count; i++) {
+        mt_value_rules_release(context, &state->value_rules[i]);
+        state->value_rules[i] = plan->value_rules[i];
+        memset(&plan->value_rules[i], 0, sizeof plan->value_rules[i]);
+    }
     mt_free(context, state->topologies);
     state->topologies = plan->children;
     plan->children = NULL;
@@ -153,6 +197,9 @@ mt_status mt_subdivide_level(mt_context *context, mt_subdivide_state *state, con
     }
     if (status == MT_OK) {
         status = plan_sharp(context, state, &plan);
+    }
+    for (mt_index i = 1; status == MT_OK && i < state->topology_count; i++) {
+        status = plan_value_rules(context, state, i, &plan);
     }
     for (mt_index i = 0; status == MT_OK && i < state->field_count; i++) {
         status = plan_field(context, state, i, result, &plan);

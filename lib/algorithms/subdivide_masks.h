@@ -91,13 +91,14 @@ MT_SUBDIVIDE_INLINE void edge_points(const mt_subdivide_loop *loop, mt_index fac
     }
 }
 
-/* 3/4 P + 1/8 + 1/8 of the neighbours along the boundary. */
+/* 3/4 P + 1/8 + 1/8 of the neighbours along the boundary, or P. */
 MT_SUBDIVIDE_INLINE void boundary_point(const mt_subdivide_loop *loop, mt_index vertex, mt_index a, mt_index b,
                                         bool wide, unsigned width)
 {
     for (unsigned k = 0; k < width; k++) {
         double ends = load(loop, loop->source, a, k, wide) + load(loop, loop->source, b, k, wide);
-        store(loop, vertex, k, load(loop, loop->source, vertex, k, wide) * 0.75 + ends * 0.125, wide);
+        double old = load(loop, loop->source, vertex, k, wide);
+        store(loop, vertex, k, loop->still_boundary ? old : old * 0.75 + ends * 0.125, wide);
     }
 }
 

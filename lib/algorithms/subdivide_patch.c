@@ -86,15 +86,25 @@ MT_SUBDIVIDE_INLINE void patch_edge(const mt_subdivide_loop *loop, const mt_edge
 PATCH_LOOPS(f32, false)
 PATCH_LOOPS(f64, true)
 
-void mt_subdivide_patches_add(const mt_subdivide_topology *topology, const mt_subdivide_sharp *sharp,
-                              const mt_subdivide_patches *patches, const uint8_t *skipped,
-                              const mt_subdivide_loop *values, bool wide, mt_subdivide_pass *pass)
+void mt_subdivide_vertex_patches_add(const mt_subdivide_loop *values, const mt_vertex_patch *patches,
+                                     const uint8_t *skipped, uint64_t count, bool wide, mt_subdivide_pass *pass)
 {
     mt_subdivide_loop loop = *values;
-    loop.topology = topology;
+    loop.patches = patches;
     loop.skipped = skipped;
-    loop.patches = patches->vertices;
-    mt_subdivide_pass_add(pass, &loop, wide ? patch_vertices_f64 : patch_vertices_f32, sharp->vertex_count);
+    if (count) {
+        mt_subdivide_pass_add(pass, &loop, wide ? patch_vertices_f64 : patch_vertices_f32, count);
+    }
+}
+
+void mt_subdivide_patches_add(const mt_subdivide_loop *values, const mt_subdivide_sharp *sharp,
+                              const mt_subdivide_patches *patches, const uint8_t *skipped, bool wide,
+                              mt_subdivide_pass *pass)
+{
+    mt_subdivide_loop loop = *values;
     loop.patches = patches->edges;
-    mt_subdivide_pass_add(pass, &loop, wide ? patch_edges_f64 : patch_edges_f32, sharp->edge_count);
+    mt_subdivide_vertex_patches_add(values, patches->vertices, skipped, sharp->vertex_count, wide, pass);
+    if (sharp->edge_count) {
+        mt_subdivide_pass_add(pass, &loop, wide ? patch_edges_f64 : patch_edges_f32, sharp->edge_count);
+    }
 }

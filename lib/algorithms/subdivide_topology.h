@@ -48,6 +48,9 @@ mt_status mt_subdivide_topology_of_mesh(mt_context *context, const mt_mesh *mesh
 mt_status mt_subdivide_topology_of_values(mt_context *context, const mt_subdivide_topology *base,
                                           const mt_attribute *attribute, mt_subdivide_topology *topology);
 
+/* Finds vertex_corners of a level 0 that has none yet. */
+mt_status mt_subdivide_find_vertex_corners(mt_context *context, mt_subdivide_topology *topology);
+
 /* Edges of the mesh that a corner attribute splits in two. O(corners). */
 mt_index mt_subdivide_seam_count(const mt_mesh *mesh, const mt_edge_pairs *pairs, const mt_attribute *attribute);
 
@@ -64,6 +67,7 @@ typedef struct mt_subdivide_loop {
     size_t offset; /* of the first component that the loop makes */
     size_t size;   /* bytes of a value */
     bool linear;
+    bool still_boundary; /* smooth, but values on boundaries stay */
 
     /* Patches (subdivide_patch.c) */
     const void *patches;

@@ -128,7 +128,8 @@ void mt_subdivide_values_plan(const mt_subdivide_topology *topology, mt_subdivid
     mt_subdivide_loop loop = {.topology = topology, .source = source, .target = target, .stride = component_count};
     loop.size = component_count * mt_type_size(type);
     loop.linear = rule == MT_SUBDIVIDE_LINEAR;
-    if (rule != MT_SUBDIVIDE_SMOOTH) {
+    loop.still_boundary = rule == MT_SUBDIVIDE_SMOOTH_BUT_BOUNDARY;
+    if (loop.linear || rule == MT_SUBDIVIDE_ORIGIN) {
         mt_subdivide_pass_add(first, &loop, keep_old_values, topology->vertex_count);
     }
     if (rule == MT_SUBDIVIDE_ORIGIN) {

@@ -52,6 +52,12 @@ inline SdcOptions sdc_options(const mt_subdivide_options &options)
                                            : SdcOptions::VTX_BOUNDARY_EDGE_ONLY);
     result.SetCreasingMethod(options.crease_method == MT_SUBDIVIDE_CREASES_CHAIKIN ? SdcOptions::CREASE_CHAIKIN
                                                                                    : SdcOptions::CREASE_UNIFORM);
+    static const SdcOptions::FVarLinearInterpolation face_varying[] = {
+        SdcOptions::FVAR_LINEAR_ALL,           SdcOptions::FVAR_LINEAR_ALL,
+        SdcOptions::FVAR_LINEAR_NONE,          SdcOptions::FVAR_LINEAR_CORNERS_ONLY,
+        SdcOptions::FVAR_LINEAR_CORNERS_PLUS1, SdcOptions::FVAR_LINEAR_CORNERS_PLUS2,
+        SdcOptions::FVAR_LINEAR_BOUNDARIES};
+    result.SetFVarLinearInterpolation(face_varying[options.face_varying]);
     return result;
 }
 
@@ -168,6 +174,35 @@ class Reference
 
     std::unique_ptr<Far::TopologyRefiner> refiner;
 };
+
+// Far takes a value that returns around a vertex (A B A B) for a third one, by a slip in how it looks for known ones
+// (FVarLevel::completeTopologyFromFaceValues, 3.5). Such a value stays where it is here, as Far has it for A B A C.
+inline bool splits_values(const Reference &reference)
+{
+    if (reference.uv_indices.empty()) {
+        return false;
+    }
+    const Far::TopologyLevel &base = reference.topology().GetLevel(0), &next = reference.topology().GetLevel(1);
+    for (int v = 0; v < base.GetNumVertices(); v++) {
+        std::vector<int> before, after;
+        Far::ConstIndexArray faces = base.GetVertexFaces(v),
+                             child_faces = next.GetVertexFaces(base.GetVertexChildVertex(v));
+        Far::ConstLocalIndexArray in_face = base.GetVertexFaceLocalIndices(v),
+                                  in_child = next.GetVertexFaceLocalIndices(base.GetVertexChildVertex(v));
+        for (int i = 0; i < faces.size(); i++) {
+            before.push_back(base.GetFaceFVarValues(faces[i], 0)[in_face[i]]);
+            after.push_back(next.GetFaceFVarValues(child_faces[i], 0)[in_child[i]]);
+        }
+        for (std::vector<int> *list : {&before, &after}) {
+            std::sort(list->begin(), list->end());
+            list->erase(std::unique(list->begin(), list->end()), list->end());
+        }
+        if (before.size() != after.size()) {
+            return true;
+        }
+    }
+    return false;
+}
 
 // Where our elements of one level are in Far's.
 struct Match {

@@ -28,12 +28,26 @@ typedef enum mt_subdivide_crease_method {
     MT_SUBDIVIDE_CREASES_CHAIKIN /* to 3/4 of its own and 1/4 of the mean of the others at the vertex, less 1 */
 } mt_subdivide_crease_method;
 
+/* How values at corners (UVs, normals, colours) are refined. A seam is an edge whose two faces have different values.
+ * All but ALL follow the vertex rule away from seams and boundaries, and a cubic B-spline along them; the values at the
+ * ends of what is listed here stay where they are instead. */
+typedef enum mt_subdivide_face_varying {
+    MT_SUBDIVIDE_FACE_VARYING_AS_TAGGED,
+    MT_SUBDIVIDE_FACE_VARYING_ALL,           /* linear everywhere */
+    MT_SUBDIVIDE_FACE_VARYING_NONE,          /* smooth everywhere */
+    MT_SUBDIVIDE_FACE_VARYING_CORNERS_ONLY,  /* values of one face alone stay */
+    MT_SUBDIVIDE_FACE_VARYING_CORNERS_PLUS1, /* and all at vertices of three values or more, or where a crease ends */
+    MT_SUBDIVIDE_FACE_VARYING_CORNERS_PLUS2, /* and where seams end, and both values when one is of one face alone */
+    MT_SUBDIVIDE_FACE_VARYING_BOUNDARIES     /* all on seams and boundaries */
+} mt_subdivide_face_varying;
+
 /* All zeros means the defaults. */
 typedef struct mt_subdivide_options {
     unsigned level_count; /* 0: 1 level; at most MT_SUBDIVIDE_LEVEL_LIMIT, else MT_ERROR_ARGUMENT */
     bool no_levels;       /* really 0 levels: a copy, unchecked */
     mt_subdivide_boundary boundary;
     mt_subdivide_crease_method crease_method;
+    mt_subdivide_face_varying face_varying;
 } mt_subdivide_options;
 
 /* Sizes of a level, in closed form from the mesh. */
