@@ -3,6 +3,8 @@
 
 #include "formats/mesh/records.h"
 
+#include <meshtool/subdivision_tags.h>
+
 #include <string.h>
 
 static bool is_blank(uint8_t c)
@@ -74,6 +76,9 @@ static int sniff_obj(const uint8_t *bytes, size_t size, uint64_t total)
 static bool holds_attribute(const mt_mesh *mesh, const mt_attribute *attribute, mt_encoding encoding)
 {
     (void)encoding;
+    if (attribute == mt_mesh_find_holes(mesh) || mt_attribute_is_subdivision_tag(attribute)) {
+        return true;
+    }
     return attribute->semantic != MT_SEMANTIC_GENERIC &&
            attribute == mt_obj_written_attribute(mesh, attribute->semantic);
 }

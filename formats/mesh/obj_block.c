@@ -26,6 +26,8 @@ size_t mt_obj_item_size(mt_obj_series series)
         [MT_OBJ_NAMES] = 1,
         [MT_OBJ_CREASES] = sizeof(mt_edge_value),
         [MT_OBJ_SHARP_VERTICES] = sizeof(mt_vertex_value),
+        [MT_OBJ_HOLES] = sizeof(mt_obj_hole),
+        [MT_OBJ_SETTINGS] = sizeof(mt_obj_setting),
     };
     return sizes[series];
 }

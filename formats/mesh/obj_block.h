@@ -4,7 +4,7 @@
 #ifndef MESHTOOL_OBJ_BLOCK_H
 #define MESHTOOL_OBJ_BLOCK_H
 
-#include <meshtool/mesh.h>
+#include <meshtool/subdivision_tags.h>
 
 /* What a reference refers to. */
 typedef enum mt_obj_element { MT_OBJ_VERTEX, MT_OBJ_UV, MT_OBJ_NORMAL, MT_OBJ_ELEMENT_COUNT } mt_obj_element;
@@ -32,6 +32,8 @@ typedef enum mt_obj_series {
     MT_OBJ_NAMES,          /* characters of the events' names */
     MT_OBJ_CREASES,        /* mt_edge_value */
     MT_OBJ_SHARP_VERTICES, /* mt_vertex_value */
+    MT_OBJ_HOLES,          /* mt_obj_hole */
+    MT_OBJ_SETTINGS,       /* mt_obj_setting */
     MT_OBJ_SERIES_COUNT
 } mt_obj_series;
 
@@ -51,6 +53,16 @@ typedef struct mt_obj_event {
     uint64_t name;   /* in MT_OBJ_NAMES, with a zero byte at its end */
     uint64_t offset; /* in the file */
 } mt_obj_event;
+
+typedef struct mt_obj_hole {
+    uint64_t face;   /* from 0; may be past the last */
+    uint64_t offset; /* in the file */
+} mt_obj_hole;
+
+typedef struct mt_obj_setting {
+    mt_subdivision_tag tag;
+    uint8_t value;
+} mt_obj_setting;
 
 typedef struct mt_obj_block {
     void *items[MT_OBJ_SERIES_COUNT];

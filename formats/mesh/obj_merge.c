@@ -189,6 +189,9 @@ mt_status mt_obj_merge(mt_context *context, mt_obj_reader *reader, mt_mesh **out
     if (status == MT_OK) {
         status = mt_obj_merge_names(context, reader, job.mesh);
     }
+    if (status == MT_OK) {
+        status = mt_obj_merge_tags(context, reader, job.mesh);
+    }
     if (status != MT_OK) {
         mt_mesh_destroy(context, job.mesh);
         job.mesh = NULL;

@@ -32,6 +32,7 @@ mt_status mt_obj_merge_elements(mt_context *context, mt_obj_reader *reader, mt_m
 mt_status mt_obj_merge_names(mt_context *context, mt_obj_reader *reader, mt_mesh *mesh);
 mt_status mt_obj_merge_uvs(mt_context *context, mt_obj_reader *reader, mt_mesh *mesh);
 mt_status mt_obj_merge_normals(mt_context *context, mt_obj_reader *reader, mt_mesh *mesh);
+mt_status mt_obj_merge_tags(mt_context *context, mt_obj_reader *reader, mt_mesh *mesh);
 mt_status mt_obj_merge_colors(mt_context *context, mt_obj_reader *reader, mt_mesh *mesh);
 
 /* One sentence for each kind of thing that was let go. */

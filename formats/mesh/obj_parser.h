@@ -92,5 +92,9 @@ static inline const char *mt_obj_reference(mt_obj_parser *parser, const char *at
 const char *mt_obj_rare_statement(mt_obj_parser *parser, const char *at);
 /* Records something that happens before the next face; the name is [begin, end). */
 bool mt_obj_add_event(mt_obj_parser *parser, int kind, const char *at, const char *begin, const char *end);
+/* The same, but once a block for each name: that of the word at `at`. */
+bool mt_obj_add_unknown(mt_obj_parser *parser, int kind, const char *at);
+/* A tag; line is the statement's first byte, at the one after its keyword. */
+const char *mt_obj_scan_tag(mt_obj_parser *parser, const char *line, const char *at);
 
 #endif

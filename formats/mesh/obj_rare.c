@@ -1,7 +1,5 @@
-/* The statements that come seldom: wires, points, names, tags, and what is not known. */
+/* The statements that come seldom: wires, points, names, and what is not known. */
 #include "formats/mesh/obj_parser.h"
-
-#define TAG_ROOM 4096 /* numbers of one tag */
 
 bool mt_obj_add_event(mt_obj_parser *parser, int kind, const char *at, const char *begin, const char *end)
 {
@@ -23,7 +21,7 @@ bool mt_obj_add_event(mt_obj_parser *parser, int kind, const char *at, const cha
 }
 
 /* As mt_obj_add_event, but once a block for each name. */
-static bool add_unknown(mt_obj_parser *parser, int kind, const char *at)
+bool mt_obj_add_unknown(mt_obj_parser *parser, int kind, const char *at)
 {
     mt_obj_block *block = parser->block;
     char word[MT_TEXT_WORD];
@@ -124,139 +122,10 @@ static const char *scan_name(mt_obj_parser *parser, const char *line, const char
     return mt_obj_add_event(parser, kind, line, at, off ? at : stop) ? end : NULL;
 }
 
-static const char *fail_tag(mt_obj_parser *parser, const char *at, const char *expected)
-{
-    char word[MT_TEXT_WORD];
-    mt_text_word(at, word);
-    mt_text_fail(parser->text, MT_ERROR_SYNTAX, at, "in a tag, expected %s, found \"%s\"", expected, word);
-    return NULL;
-}
-
-/* The "2/1/0" of a tag: how many whole numbers, numbers and words follow. */
-static const char *scan_tag_counts(mt_obj_parser *parser, const char *at, uint64_t counts[3])
-{
-    const char *begin = at;
-    for (int i = 0; i < 3; i++) {
-        const char *stop;
-        counts[i] = mt_scan_unsigned(at, &stop);
-        bool ends = i == 2 ? mt_is_space(*stop) : *stop == '/';
-        if (stop == at || !ends) {
-            return fail_tag(parser, begin, "three counts as 2/1/0");
-        }
-        at = i == 2 ? stop : stop + 1;
-    }
-    if (counts[0] > TAG_ROOM || counts[1] > TAG_ROOM) {
-        return fail_tag(parser, begin, "at most 4096 numbers");
-    }
-    return at;
-}
-
-/* A vertex in a tag counts from 0. */
-static const char *scan_tag_vertex(mt_obj_parser *parser, const char *at, mt_index *vertex)
-{
-    const char *stop;
-    uint64_t number = mt_scan_unsigned(at, &stop);
-    if (stop == at || !mt_is_space(*stop)) {
-        return fail_tag(parser, at, "the number of a vertex");
-    }
-    uint64_t count = parser->limits->counts[MT_OBJ_VERTEX];
-    if (number >= count) {
-        mt_text_fail(parser->text, MT_ERROR_SYNTAX, at,
-                     "vertex %llu of a tag does not exist: tags count from 0 and the file has %llu vertices",
-                     (unsigned long long)number, (unsigned long long)count);
-        return NULL;
-    }
-    *vertex = (mt_index)number;
-    return stop;
-}
-
-/* Stores vertex number i of a tag: the next in the chain of a crease, or one of a corner tag's list. */
-static void store_tag_vertex(mt_obj_block *block, bool crease, uint64_t i, mt_index vertex)
-{
-    if (!crease) {
-        mt_vertex_value *items = block->items[MT_OBJ_SHARP_VERTICES];
-        items[block->counts[MT_OBJ_SHARP_VERTICES] + i].vertex = vertex;
-        return;
-    }
-    mt_edge_value *items = (mt_edge_value *)block->items[MT_OBJ_CREASES] + block->counts[MT_OBJ_CREASES];
-    if (i > 0) {
-        items[i - 1].b = vertex;
-    }
-    items[i].a = vertex;
-}
-
-static void store_tag_value(mt_obj_block *block, bool crease, uint64_t i, double value)
-{
-    if (crease) {
-        mt_edge_value *items = block->items[MT_OBJ_CREASES];
-        items[block->counts[MT_OBJ_CREASES] + i].value = value;
-    } else {
-        mt_vertex_value *items = block->items[MT_OBJ_SHARP_VERTICES];
-        items[block->counts[MT_OBJ_SHARP_VERTICES] + i].value = value;
-    }
-}
-
-/* The vertices of a crease make a chain, each edge with its own sharpness or all with the only one; a corner tag is a
- * list of vertices, likewise. */
-static const char *scan_sharpness(mt_obj_parser *parser, const char *line, const char *at, const uint64_t counts[3],
-                                  bool crease)
-{
-    mt_obj_series series = crease ? MT_OBJ_CREASES : MT_OBJ_SHARP_VERTICES;
-    uint64_t item_count = crease && counts[0] > 0 ? counts[0] - 1 : counts[0];
-    if (item_count == 0 || counts[2] != 0 || (counts[1] != 1 && counts[1] != item_count)) {
-        return fail_tag(parser, line,
-                        crease ? "crease N/1/0 or N/(N-1)/0, the vertices and the sharpness"
-                               : "corner N/1/0 or N/N/0, the vertices and the sharpness");
-    }
-    if (!mt_obj_parser_reserve(parser, series, counts[0])) {
-        return NULL;
-    }
-    for (uint64_t i = 0; i < counts[0]; i++) {
-        mt_index vertex = 0;
-        at = mt_obj_skip(parser, at);
-        at = at ? scan_tag_vertex(parser, at, &vertex) : NULL;
-        if (!at) {
-            return NULL;
-        }
-        store_tag_vertex(parser->block, crease, i, vertex);
-    }
-    double value = 0.0;
-    for (uint64_t i = 0; i < item_count; i++) {
-        if (i < counts[1]) {
-            at = mt_obj_skip(parser, at);
-            at = at ? mt_obj_number(parser, at, &value) : NULL;
-        }
-        if (!at) {
-            return NULL;
-        }
-        store_tag_value(parser->block, crease, i, value);
-    }
-    parser->block->counts[series] += item_count;
-    return mt_obj_skip(parser, at);
-}
-
-static const char *scan_tag(mt_obj_parser *parser, const char *line, const char *at)
-{
-    uint64_t counts[3];
-    at = mt_obj_skip(parser, at);
-    if (!at) {
-        return NULL;
-    }
-    const char *name = at, *end = mt_skip_word(at);
-    bool crease = end - name == 6 && memcmp(name, "crease", 6) == 0;
-    bool corner = end - name == 6 && memcmp(name, "corner", 6) == 0;
-    if (!crease && !corner) {
-        return add_unknown(parser, MT_OBJ_UNKNOWN_TAG, name) ? mt_find_line_end(end) : NULL;
-    }
-    at = mt_obj_skip(parser, end);
-    at = at ? scan_tag_counts(parser, at, counts) : NULL;
-    return at ? scan_sharpness(parser, line, at, counts, crease) : NULL;
-}
-
 /* A line that is not known is left out whole, with the lines that continue it. */
 static const char *skip_unknown(mt_obj_parser *parser, const char *at)
 {
-    if (!add_unknown(parser, MT_OBJ_UNKNOWN_KEYWORD, at)) {
+    if (!mt_obj_add_unknown(parser, MT_OBJ_UNKNOWN_KEYWORD, at)) {
         return NULL;
     }
     at = mt_find_line_end(at);
@@ -295,7 +164,7 @@ const char *mt_obj_rare_statement(mt_obj_parser *parser, const char *at)
         return scan_points(parser, at, end);
     }
     if (size == 1 && *at == 't') {
-        return scan_tag(parser, at, end);
+        return mt_obj_scan_tag(parser, at, end);
     }
     parser->block->statement_count--;
     return skip_unknown(parser, at);

@@ -5,6 +5,8 @@
 #include "formats/stream/lines.h"
 #include "formats/stream/output.h"
 
+#include <meshtool/subdivision_tags.h>
+
 #include <string.h>
 
 #define LINE_GRAIN 8192 /* lines of a block */
@@ -12,7 +14,7 @@
 
 typedef struct obj_writer {
     const mt_mesh *mesh;
-    const mt_attribute *color, *uv, *normal;
+    const mt_attribute *color, *uv, *normal, *holes;
     const mt_labels *labels[LABEL_KINDS];
 } obj_writer;
 
@@ -218,6 +220,36 @@ static void put_sharp_vertices(void *user, mt_lines *lines, uint64_t begin, uint
     }
 }
 
+static void put_holes(void *user, mt_lines *lines, uint64_t begin, uint64_t end)
+{
+    const mt_attribute *holes = ((const obj_writer *)user)->holes;
+    for (uint64_t face = begin; face < end; face++) {
+        char *at = mt_lines_reserve(lines, 32 + MT_PUT_UNSIGNED_ROOM);
+        if (at && mt_face_is_hole(holes, (mt_index)face)) {
+            at = mt_put_unsigned(stpcpy(at, "t hole 1/0/0 "), face);
+            *at++ = '\n';
+            lines->size = (size_t)(at - lines->bytes);
+        }
+    }
+}
+
+static void put_settings(void *user, mt_lines *lines, uint64_t begin, uint64_t end)
+{
+    const mt_mesh *mesh = ((const obj_writer *)user)->mesh;
+    for (uint64_t i = begin; i < end; i++) {
+        mt_subdivision_tag tag = (mt_subdivision_tag)i;
+        unsigned value = 0;
+        char *at = mt_lines_reserve(lines, 96);
+        if (at && mt_subdivision_tag_get(mesh, tag, &value)) {
+            const char *word = mt_subdivision_tag_word(tag, value);
+            at = stpcpy(stpcpy(at, "t "), mt_subdivision_tag_name(tag));
+            at = word ? stpcpy(stpcpy(at, " 0/0/1 "), word) : mt_put_unsigned(stpcpy(at, " 1/0/0 "), value);
+            *at++ = '\n';
+            lines->size = (size_t)(at - lines->bytes);
+        }
+    }
+}
+
 static void put_libraries(void *user, mt_lines *lines, uint64_t begin, uint64_t end)
 {
     const mt_mesh *mesh = ((const obj_writer *)user)->mesh;
@@ -240,6 +272,7 @@ mt_status mt_obj_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_w
 {
     obj_writer writer = {.mesh = mesh,
                          .color = mt_obj_written_attribute(mesh, MT_SEMANTIC_COLOR),
+                         .holes = mt_mesh_find_holes(mesh),
                          .uv = mt_obj_written_attribute(mesh, MT_SEMANTIC_UV),
                          .normal = mt_obj_written_attribute(mesh, MT_SEMANTIC_NORMAL)};
     for (int kind = 0; kind < LABEL_KINDS; kind++) {
@@ -256,7 +289,9 @@ mt_status mt_obj_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_w
                  {mesh->wire_count, put_wires},
                  {mesh->point_count, put_points},
                  {mesh->crease_count, put_creases},
-                 {mesh->sharp_vertex_count, put_sharp_vertices}};
+                 {mesh->sharp_vertex_count, put_sharp_vertices},
+                 {writer.holes ? mesh->face_count : 0, put_holes},
+                 {MT_TAG_COUNT, put_settings}};
     (void)options;
     mt_status status = mt_output_text(context, output, "# Wavefront OBJ\n");
     for (size_t i = 0; status == MT_OK && i < sizeof parts / sizeof parts[0]; i++) {

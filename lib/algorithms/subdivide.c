@@ -11,6 +11,8 @@
 #include "lib/algorithms/subdivide_crease.h"
 #include "lib/algorithms/subdivide_level.h"
 #include "lib/algorithms/subdivide_rings.h"
+#include "lib/algorithms/subdivide_settings.h"
+#include "lib/algorithms/subdivide_trim.h"
 
 #include <meshtool/refusal.h>
 
@@ -34,6 +36,8 @@ static void release_state(mt_context *context, mt_subdivide_state *state)
     mt_free(context, state->topologies);
     mt_free(context, state->fields);
     mt_subdivide_sharp_release(context, &state->sharp);
+    mt_free(context, state->sharp_vertices);
+    mt_free(context, state->holes);
     memset(state, 0, sizeof *state);
 }
 
@@ -74,6 +78,9 @@ static mt_status begin_state(mt_context *context, const mt_edge_pairs *pairs, un
     if (status == MT_OK) {
         state->topology_count = 1;
         status = check_rings(context, mesh, &state->topologies[0]);
+    }
+    if (status == MT_OK) {
+        status = mt_subdivide_holes(context, mesh, pairs, &state->settings, &state->holes);
     }
     if (status == MT_OK) {
         status = mt_subdivide_creases_create(context, state);
@@ -192,6 +199,9 @@ static mt_status subdivide_paired(mt_context *context, const mt_mesh *mesh, cons
     if (status == MT_OK) {
         status = finish_result(context, &state, level_count, result);
     }
+    if (status == MT_OK && state.holes) {
+        status = mt_subdivide_trim(context, mesh, state.holes, level_count, &result);
+    }
     if (status == MT_OK) {
         status = mt_progress(context, TASK, 1);
     }
@@ -215,19 +225,15 @@ static mt_status check_corners(mt_context *context, const mt_mesh *mesh, unsigne
 
 mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdivide_options *options, mt_mesh **out)
 {
-    mt_subdivide_options settings = options ? *options : (mt_subdivide_options){0};
+    mt_subdivide_options settings;
     *out = NULL;
-    if (settings.no_levels) {
+    if (options && options->no_levels) {
         return mt_mesh_copy(context, mesh, out);
     }
-    settings.level_count += settings.level_count == 0;
-    settings.face_varying += settings.face_varying == MT_SUBDIVIDE_FACE_VARYING_AS_TAGGED;
-    unsigned level_count = settings.level_count;
-    if (level_count > MT_SUBDIVIDE_LEVEL_LIMIT) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "%u levels are more than the %u that can be asked for", level_count,
-                       MT_SUBDIVIDE_LEVEL_LIMIT);
+    mt_status status = mt_subdivide_settle(context, mesh, options, &settings);
+    if (status == MT_OK) {
+        status = check_corners(context, mesh, settings.level_count);
     }
-    mt_status status = check_corners(context, mesh, level_count);
     if (status != MT_OK) {
         return status;
     }

@@ -1,17 +1,74 @@
 #include "lib/algorithms/subdivide_crease.h"
 
+#include "lib/algorithms/subdivide_angle.h"
+
 #include <string.h>
+
+/* The mesh's creases, those of the angle and those of the options, one after the other: later ones win. */
+static mt_status join_creases(mt_context *context, const mt_subdivide_state *state, mt_edge_value **joined,
+                              mt_index *count)
+{
+    const mt_mesh *mesh = state->mesh;
+    const mt_subdivide_options *settings = &state->settings;
+    mt_edge_value *angled = NULL;
+    mt_index angled_count = 0;
+    mt_status status = MT_OK;
+    if (settings->crease_angle > 0) {
+        status = mt_creases_of_angle(context, mesh, state->topologies[0].twins, settings->crease_angle,
+                                     (double)MT_SHARPNESS_INFINITE, &angled, &angled_count);
+    }
+    uint64_t total = (uint64_t)mesh->crease_count + angled_count + settings->crease_count;
+    *joined = status == MT_OK ? mt_allocate_array(context, total, sizeof **joined) : NULL;
+    const mt_edge_value *parts[] = {mesh->creases, angled, settings->creases};
+    const mt_index counts[] = {mesh->crease_count, angled_count, settings->crease_count};
+    *count = 0;
+    for (unsigned i = 0; *joined && i < 3; i++) {
+        if (counts[i]) {
+            memcpy(*joined + *count, parts[i], counts[i] * sizeof **joined);
+        }
+        *count += counts[i];
+    }
+    mt_free(context, angled);
+    return *joined ? MT_OK : mt_context_error(context)->status;
+}
+
+static mt_status join_sharp_vertices(mt_context *context, mt_subdivide_state *state)
+{
+    const mt_mesh *mesh = state->mesh;
+    const mt_subdivide_options *settings = &state->settings;
+    uint64_t total = (uint64_t)mesh->sharp_vertex_count + settings->sharp_vertex_count;
+    mt_vertex_value *joined = state->sharp_vertices = mt_allocate_array(context, total, sizeof *joined);
+    if (!joined) {
+        return mt_context_error(context)->status;
+    }
+    if (mesh->sharp_vertex_count) {
+        memcpy(joined, mesh->sharp_vertices, mesh->sharp_vertex_count * sizeof *joined);
+    }
+    if (settings->sharp_vertex_count) {
+        memcpy(joined + mesh->sharp_vertex_count, settings->sharp_vertices,
+               settings->sharp_vertex_count * sizeof *joined);
+    }
+    state->sharp_vertex_count = (mt_index)total;
+    return MT_OK;
+}
 
 mt_status mt_subdivide_creases_create(mt_context *context, mt_subdivide_state *state)
 {
-    const mt_mesh *mesh = state->mesh;
-    mt_sharp_input input = {.crease_count = mesh->crease_count,
-                            .creases = mesh->creases,
-                            .vertex_count = mesh->sharp_vertex_count,
-                            .vertices = mesh->sharp_vertices,
-                            .corners = state->settings.boundary == MT_SUBDIVIDE_BOUNDARY_CORNERS,
+    mt_sharp_input input = {.corners = state->settings.boundary == MT_SUBDIVIDE_BOUNDARY_CORNERS,
                             .chaikin = state->settings.crease_method == MT_SUBDIVIDE_CREASES_CHAIKIN};
-    return mt_subdivide_sharp_create(context, &state->topologies[0], &input, &state->sharp);
+    mt_edge_value *creases = NULL;
+    mt_status status = join_creases(context, state, &creases, &input.crease_count);
+    if (status == MT_OK) {
+        status = join_sharp_vertices(context, state);
+    }
+    if (status == MT_OK) {
+        input.creases = creases;
+        input.vertices = state->sharp_vertices;
+        input.vertex_count = state->sharp_vertex_count;
+        status = mt_subdivide_sharp_create(context, &state->topologies[0], &input, &state->sharp);
+    }
+    mt_free(context, creases);
+    return status;
 }
 
 static mt_status finish_edges(mt_context *context, const mt_subdivide_state *state, mt_mesh *result)
@@ -36,19 +93,20 @@ static mt_status finish_edges(mt_context *context, const mt_subdivide_state *sta
     return MT_OK;
 }
 
-static mt_status finish_vertices(mt_context *context, const mt_mesh *mesh, unsigned level_count, mt_mesh *result)
+static mt_status finish_vertices(mt_context *context, const mt_subdivide_state *state, unsigned level_count,
+                                 mt_mesh *result)
 {
-    result->sharp_vertices = mt_allocate_array(context, mesh->sharp_vertex_count, sizeof *result->sharp_vertices);
+    result->sharp_vertices = mt_allocate_array(context, state->sharp_vertex_count, sizeof *result->sharp_vertices);
     if (!result->sharp_vertices) {
         return mt_context_error(context)->status;
     }
-    for (mt_index i = 0; i < mesh->sharp_vertex_count; i++) {
-        float sharpness = (float)mesh->sharp_vertices[i].value;
+    for (mt_index i = 0; i < state->sharp_vertex_count; i++) {
+        float sharpness = (float)state->sharp_vertices[i].value;
         for (unsigned level = 0; level < level_count; level++) {
             sharpness = mt_sharpness_next(sharpness);
         }
         if (sharpness > 0) {
-            mt_vertex_value left = {mesh->sharp_vertices[i].vertex, (double)sharpness};
+            mt_vertex_value left = {state->sharp_vertices[i].vertex, (double)sharpness};
             result->sharp_vertices[result->sharp_vertex_count++] = left;
         }
     }
@@ -59,5 +117,5 @@ mt_status mt_subdivide_creases_finish(mt_context *context, const mt_subdivide_st
                                       mt_mesh *result)
 {
     mt_status status = finish_edges(context, state, result);
-    return status == MT_OK ? finish_vertices(context, state->mesh, level_count, result) : status;
+    return status == MT_OK ? finish_vertices(context, state, level_count, result) : status;
 }

@@ -27,6 +27,9 @@ typedef struct mt_subdivide_state {
     mt_subdivide_field *fields;    /* 0: the positions */
     mt_subdivide_options settings; /* with the mesh's tags where nothing was asked for; level_count at least 1 */
     mt_subdivide_sharp sharp;
+    mt_index sharp_vertex_count; /* as given, by the mesh and then the options */
+    mt_vertex_value *sharp_vertices;
+    uint8_t *holes; /* per face of the mesh; NULL: none */
 } mt_subdivide_state;
 
 /* Makes the topologies of the corner attributes and all fields; topologies[0] must stand. */

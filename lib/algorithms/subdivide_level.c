@@ -33,7 +33,7 @@ static mt_status create_plan(mt_context *context, const mt_subdivide_state *stat
 {
     size_t loop_count = 2 * (size_t)state->topology_count;
     for (mt_index i = 0; i < state->field_count; i++) {
-        loop_count += mt_subdivide_values_loop_count(state->fields[i].component_count);
+        loop_count += mt_subdivide_values_loop_count(state->fields[i].component_count) + 1;
     }
     mt_index face_count = state->topologies[0].face_count;
     plan->children = mt_allocate_array_zeroed(context, state->topology_count, sizeof *plan->children);
@@ -107,6 +107,11 @@ static mt_status plan_field(mt_context *context, const mt_subdivide_state *state
     if (field->rule == MT_SUBDIVIDE_SMOOTH || field->rule == MT_SUBDIVIDE_SMOOTH_BUT_BOUNDARY) {
         mt_subdivide_loop values = {.topology = topology, .source = field->values, .target = target};
         values.stride = field->component_count;
+        if (topology->level == 0 && topology->face_size != 4 &&
+            state->settings.triangles == MT_SUBDIVIDE_TRIANGLES_SMOOTH) {
+            mt_subdivide_triangles_plan(topology, field->type, field->component_count, field->values, target,
+                                        &plan->second);
+        }
         plan_patches(state, number, &values, plan);
     }
     return MT_OK;

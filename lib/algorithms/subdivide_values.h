@@ -19,6 +19,11 @@ void mt_subdivide_values_plan(const mt_subdivide_topology *topology, mt_subdivid
                               uint32_t component_count, const void *source, void *target, mt_subdivide_pass *first,
                               mt_subdivide_pass *second);
 
+/* Makes the edge points beside triangles anew, by the smooth-triangle rule: to be added after the above. Level 0 only.
+ */
+void mt_subdivide_triangles_plan(const mt_subdivide_topology *topology, mt_type type, uint32_t component_count,
+                                 const void *source, void *target, mt_subdivide_pass *second);
+
 /* The most loops that it adds to one pass. */
 size_t mt_subdivide_values_loop_count(uint32_t component_count);
 

@@ -52,6 +52,8 @@ inline SdcOptions sdc_options(const mt_subdivide_options &options)
                                            : SdcOptions::VTX_BOUNDARY_EDGE_ONLY);
     result.SetCreasingMethod(options.crease_method == MT_SUBDIVIDE_CREASES_CHAIKIN ? SdcOptions::CREASE_CHAIKIN
                                                                                    : SdcOptions::CREASE_UNIFORM);
+    result.SetTriangleSubdivision(options.triangles == MT_SUBDIVIDE_TRIANGLES_SMOOTH ? SdcOptions::TRI_SUB_SMOOTH
+                                                                                     : SdcOptions::TRI_SUB_CATMARK);
     static const SdcOptions::FVarLinearInterpolation face_varying[] = {
         SdcOptions::FVAR_LINEAR_ALL,           SdcOptions::FVAR_LINEAR_ALL,
         SdcOptions::FVAR_LINEAR_NONE,          SdcOptions::FVAR_LINEAR_CORNERS_ONLY,

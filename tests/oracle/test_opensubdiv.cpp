@@ -280,6 +280,21 @@ void compare_creases(mt_context *context, mt_subdivide_crease_method method, con
     }
 }
 
+void compare_triangles(mt_context *context)
+{
+    Random random(4);
+    for (int i = 0; i < 6; i++) {
+        Cage cage = grid(random, 5, 5, i % 2 == 0);
+        cage.options.triangles = MT_SUBDIVIDE_TRIANGLES_SMOOTH;
+        compare(context, "smooth triangles among n-gons " + std::to_string(i), cage);
+        sharpen(random, cage, 0.3, sharpnesses);
+        compare(context, "smooth triangles and creases " + std::to_string(i), cage);
+    }
+    Cage hub = fan(random, 7, true);
+    hub.options.triangles = MT_SUBDIVIDE_TRIANGLES_SMOOTH;
+    compare(context, "smooth triangles alone", hub);
+}
+
 // UVs of their own at every vertex, and seams: at a share of the corners another value is used, or the next corner's.
 void map(Random &random, Cage &cage, double share)
 {
@@ -330,6 +345,7 @@ void compare_face_varying(mt_context *context)
             i % 4 < 2 ? map(random, cage, 0.05 * (i % 7)) : map_in_charts(cage, 3 + mt_index(i) % 5);
             compare(context, label + ", seams " + std::to_string(i), cage);
             sharpen(random, cage, i < 20 ? 0.1 : 0.4, sharpnesses);
+            cage.options.triangles = i % 5 ? MT_SUBDIVIDE_TRIANGLES_NORMAL : MT_SUBDIVIDE_TRIANGLES_SMOOTH;
             compare(context, label + ", seams and creases " + std::to_string(i), cage);
         }
         Cage box = cube();
@@ -371,6 +387,7 @@ int main()
     compare_creases(context, MT_SUBDIVIDE_CREASES_NORMAL, "creases");
     compare_creases(context, MT_SUBDIVIDE_CREASES_CHAIKIN, "Chaikin creases");
     compare_boundaries(context);
+    compare_triangles(context);
     compare_face_varying(context);
     mt_context_destroy(context);
     return tally.conclude();

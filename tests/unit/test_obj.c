@@ -1,6 +1,8 @@
 /* Reading and writing OBJ: every form that is read, and the message of everything that is not. */
 #include "tests/support/unit.h"
 
+#include <meshtool/subdivision_tags.h>
+
 #include "tests/support/fixture.h"
 #include "tests/support/text_reading.h"
 
@@ -110,6 +112,13 @@ static void test_what_is_refused_says_why(void **state)
          "a.obj:4:18: vertex 3 of a tag does not exist: tags count from 0 and the file has 3 vertices"},
         {TRIANGLE "t crease 2/1 0 1 2\n", "a.obj:4:10: in a tag, expected three counts as 2/1/0, found \"2/1\""},
         {TRIANGLE "t corner 1/1/0 0\n", "a.obj:4:17: the line ends where a number was expected"},
+        {TRIANGLE "t hole 1/0/0 0\n",
+         "a.obj:4:14: face 0 of a tag does not exist: tags count from 0 and the file has 0 "
+         "faces"},
+        {TRIANGLE "t hole 0/1/0 0\n",
+         "a.obj:4:1: in a tag, expected hole N/0/0 and the numbers of the faces, found \"t\""},
+        {TRIANGLE "t interpolateboundary 1/0/0 3\n", "a.obj:4:29: in a tag, expected 0, 1 or 2, found \"3\""},
+        {TRIANGLE "t creasemethod 0/0/1 loop\n", "a.obj:4:22: in a tag, expected normal or chaikin, found \"loop\""},
         {"hello world\n", "a.obj:1:1: no OBJ statement is in this file, which begins with \"hello\""},
     };
     mt_context *context = test_context();
@@ -131,17 +140,45 @@ static void test_what_is_let_go_is_warned_of_once(void **state)
     mt_context *context = test_context_with_warnings(&warnings, 1);
     mt_mesh *mesh = text_read(context, "a.obj",
                               "mtllib ../up.mtl\nmtllib ../up.mtl\nv 0 0 0 2\nv 1 0 nan\nv 0 1 inf 1\nvp 1\nvp 2\n"
-                              "cstype \\\n bezier\nt hole 1/0/0 3\nvt 0 0\nf 1 2 3\n");
+                              "cstype \\\n bezier\nt blob 1/0/0 3\nvt 0 0\nf 1 2 3\n");
     assert_string_equal(warnings.text,
                         "a.obj: no face uses the 1 texture vertices, which are left out\n"
                         "a.obj:1: the material library \"../up.mtl\" is kept by name and not opened\n"
                         "a.obj:6: the keyword \"vp\" is not known; its lines are left out\n"
                         "a.obj:8: the keyword \"cstype\" is not known; its lines are left out\n"
-                        "a.obj:10: the tag \"hole\" is not known and left out\n"
+                        "a.obj:10: the tag \"blob\" is not known and left out\n"
                         "a.obj: 1 vertices have a weight (a fourth number that is not 1), which is left out\n"
                         "a.obj: 2 vertices have a coordinate that is not finite (nan or inf)\n");
     assert_int_equal(mesh->material_library_count, 1);
     assert_string_equal(mesh->material_libraries[0], "../up.mtl");
+    mt_mesh_destroy(context, mesh);
+    test_context_end(context);
+}
+
+/* Holes and settings, the last of each, here and after a round trip. */
+static void test_tags_of_subdivision(void **state)
+{
+    (void)state;
+    static const unsigned expected[MT_TAG_COUNT] = {
+        [MT_TAG_BOUNDARY] = 1, [MT_TAG_FACE_VARYING] = 4, [MT_TAG_CREASE_METHOD] = 1, [MT_TAG_SMOOTH_TRIANGLES] = 1};
+    mt_context *context = test_context();
+    mt_mesh *mesh = text_read(context, "a.obj",
+                              TRIANGLE "f 1 2 3\nf 3 2 1\nf 1 3 2\nt hole 2/0/0 0 2\nt interpolateboundary 1/0/0 2\n"
+                                       "t interpolateboundary 1/0/0 1\nt facevaryinginterpolateboundary 1/0/0 4\n"
+                                       "t creasemethod 0/0/1 chaikin\nt smoothtriangles 0/0/1 smooth\n");
+    mt_mesh *again = text_through(context, mesh, "obj", MT_ENCODING_ASCII);
+    const mt_mesh *meshes[] = {mesh, again};
+    for (unsigned i = 0; i < 2; i++) {
+        const mt_attribute *holes = mt_mesh_find_holes(meshes[i]);
+        assert_non_null(holes);
+        assert_true(mt_face_is_hole(holes, 0) && !mt_face_is_hole(holes, 1) && mt_face_is_hole(holes, 2));
+        for (unsigned tag = 0; tag < MT_TAG_COUNT; tag++) {
+            unsigned value = 99;
+            assert_true(mt_subdivision_tag_get(meshes[i], (mt_subdivision_tag)tag, &value));
+            assert_int_equal(value, expected[tag]);
+        }
+    }
+    mt_mesh_destroy(context, again);
     mt_mesh_destroy(context, mesh);
     test_context_end(context);
 }
@@ -278,6 +315,7 @@ int main(void)
         cmocka_unit_test(test_forms_of_a_triangle),
         cmocka_unit_test(test_what_is_refused_says_why),
         cmocka_unit_test(test_what_is_let_go_is_warned_of_once),
+        cmocka_unit_test(test_tags_of_subdivision),
         cmocka_unit_test(test_empty_files),
         cmocka_unit_test(test_everything_is_kept_and_round_trips),
         cmocka_unit_test(test_normals_by_vertex_are_normals_of_vertices),

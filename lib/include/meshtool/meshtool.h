@@ -12,13 +12,14 @@
 #include <meshtool/vector.h>     /* three doubles */
 
 /* The hub */
-#include <meshtool/attribute.h>   /* normals, UVs, colours */
-#include <meshtool/derive.h>      /* new meshes from chosen elements */
-#include <meshtool/generate.h>    /* cube, torus, teapot ... */
-#include <meshtool/mesh.h>        /* vertices, polygons, labels, creases */
-#include <meshtool/transform.h>   /* scale, rotate, move */
-#include <meshtool/triangulate.h> /* n-gons to triangles, in one way */
-#include <meshtool/weld.h>        /* points at one place become one */
+#include <meshtool/attribute.h>        /* normals, UVs, colours */
+#include <meshtool/derive.h>           /* new meshes from chosen elements */
+#include <meshtool/generate.h>         /* cube, torus, teapot ... */
+#include <meshtool/mesh.h>             /* vertices, polygons, labels, creases */
+#include <meshtool/subdivision_tags.h> /* holes, and how a file asks to be subdivided */
+#include <meshtool/transform.h>        /* scale, rotate, move */
+#include <meshtool/triangulate.h>      /* n-gons to triangles, in one way */
+#include <meshtool/weld.h>             /* points at one place become one */
 
 /* Connectivity */
 #include <meshtool/components.h>          /* connected faces, orientability */

@@ -6,6 +6,7 @@
 #define MESHTOOL_SUBDIVIDE_H
 
 #include <meshtool/edge_pairs.h>
+#include <meshtool/subdivision_tags.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,7 +14,8 @@ extern "C" {
 
 #define MT_SUBDIVIDE_LEVEL_LIMIT 31
 
-/* In each of these 0 is: as the mesh asks by its tags (MT_TAG_*), and where it has none, the first that follows. */
+/* In each of these 0 is: as the mesh asks by its tags (mt_subdivision_tag), and where it has none, the first that
+ * follows. */
 typedef enum mt_subdivide_boundary {
     MT_SUBDIVIDE_BOUNDARY_AS_TAGGED,
     MT_SUBDIVIDE_BOUNDARY_SMOOTH,  /* boundaries are cubic B-splines: OpenSubdiv's "edge only" */
@@ -41,6 +43,12 @@ typedef enum mt_subdivide_face_varying {
     MT_SUBDIVIDE_FACE_VARYING_BOUNDARIES     /* all on seams and boundaries */
 } mt_subdivide_face_varying;
 
+typedef enum mt_subdivide_triangles {
+    MT_SUBDIVIDE_TRIANGLES_AS_TAGGED,
+    MT_SUBDIVIDE_TRIANGLES_NORMAL,
+    MT_SUBDIVIDE_TRIANGLES_SMOOTH /* level 1 weighs faces at edges of triangles by 0.47, not 1/4, which ripples less */
+} mt_subdivide_triangles;
+
 /* All zeros means the defaults. */
 typedef struct mt_subdivide_options {
     unsigned level_count; /* 0: 1 level; at most MT_SUBDIVIDE_LEVEL_LIMIT, else MT_ERROR_ARGUMENT */
@@ -48,6 +56,14 @@ typedef struct mt_subdivide_options {
     mt_subdivide_boundary boundary;
     mt_subdivide_crease_method crease_method;
     mt_subdivide_face_varying face_varying;
+    mt_subdivide_triangles triangles;
+    double crease_angle; /* > 0: edges whose faces' normals are more radians apart become infinitely sharp */
+    /* Sharpness beside the mesh's, which it replaces on the same edges and vertices (0: smooth); and holes. The
+     * caller's; vertices and faces must be the mesh's, else MT_ERROR_ARGUMENT. */
+    const mt_edge_value *creases;
+    const mt_vertex_value *sharp_vertices;
+    const mt_index *holes;
+    mt_index crease_count, sharp_vertex_count, hole_count;
 } mt_subdivide_options;
 
 /* Sizes of a level, in closed form from the mesh. */
