@@ -2,6 +2,7 @@
 #include "tests/support/unit.h"
 
 #include <meshtool/halfedge_surgery.h>
+#include <meshtool/triangle_neighbor_surgery.h>
 #include <meshtool/winged_edge_surgery.h>
 
 #include <string.h>
@@ -125,6 +126,12 @@ static void winged_destroy(mt_context *context, void *surgery)
     mt_winged_surgery_destroy(context, surgery);
 }
 
+static mt_index winged_cut(const mt_winged_surgery *surgery, mt_index vertex, mt_index end)
+{
+    mt_index found = mt_winged_surgery_find(surgery, vertex, end);
+    return found == MT_NONE && end != MT_NONE ? surgery->structure.edge_count : found;
+}
+
 static mt_surgery_verdict winged_judge(const void *surgery, const test_operation *at)
 {
     mt_index edge = mt_winged_surgery_find(surgery, at->a, at->b);
@@ -134,7 +141,8 @@ static mt_surgery_verdict winged_judge(const void *surgery, const test_operation
     case TEST_SPLIT_EDGE:
         return mt_winged_can_split_edge(surgery, edge, at->a);
     case TEST_SPLIT_VERTEX:
-        return mt_winged_can_split_vertex(surgery, at->a, edge, mt_winged_surgery_find(surgery, at->a, at->c));
+        return mt_winged_can_split_vertex(surgery, at->a, winged_cut(surgery, at->a, at->b),
+                                          winged_cut(surgery, at->a, at->c));
     case TEST_COLLAPSE_EDGE:
         return mt_winged_can_collapse_edge(surgery, edge, at->a);
     case TEST_REMOVE_FACE:
@@ -153,8 +161,8 @@ static mt_status winged_operate(mt_context *context, void *surgery, const test_o
     case TEST_SPLIT_EDGE:
         return mt_winged_split_edge(context, surgery, edge, at->a, at->weight, NULL);
     case TEST_SPLIT_VERTEX:
-        return mt_winged_split_vertex(context, surgery, at->a, edge, mt_winged_surgery_find(surgery, at->a, at->c),
-                                      NULL);
+        return mt_winged_split_vertex(context, surgery, at->a, winged_cut(surgery, at->a, at->b),
+                                      winged_cut(surgery, at->a, at->c), NULL);
     case TEST_COLLAPSE_EDGE:
         return mt_winged_collapse_edge(context, surgery, edge, at->a, at->weight);
     case TEST_REMOVE_FACE:
@@ -198,6 +206,106 @@ static uint64_t winged_hash(const void *opaque)
     return test_hash(hashes, sizeof hashes);
 }
 
+/* Triangle neighbours */
+
+static mt_status triangle_create(mt_context *context, const mt_mesh *mesh, void **out)
+{
+    *out = NULL;
+    mt_triangle_neighbor_mesh *structure = NULL;
+    mt_status status = mt_triangle_neighbor_create(context, mesh, &structure);
+    if (status == MT_OK) {
+        status = mt_triangle_surgery_create(context, structure, (mt_triangle_surgery **)out);
+    }
+    mt_triangle_neighbor_destroy(context, structure);
+    return status;
+}
+
+static void triangle_destroy(mt_context *context, void *surgery)
+{
+    mt_triangle_surgery_destroy(context, surgery);
+}
+
+static mt_index triangle_cut(const mt_triangle_surgery *surgery, mt_index vertex, mt_index end)
+{
+    mt_index found = mt_triangle_surgery_find(surgery, vertex, end);
+    return found == MT_NONE && end != MT_NONE ? 3 * surgery->structure.triangle_count : found;
+}
+
+static mt_surgery_verdict triangle_judge(const void *surgery, const test_operation *at)
+{
+    mt_index side = mt_triangle_surgery_find(surgery, at->a, at->b);
+    switch (at->kind) {
+    case TEST_SWAP_EDGE:
+        return mt_triangle_can_swap_edge(surgery, side);
+    case TEST_SPLIT_EDGE:
+        return mt_triangle_can_split_edge(surgery, side, at->a);
+    case TEST_SPLIT_VERTEX:
+        return mt_triangle_can_split_vertex(surgery, at->a, triangle_cut(surgery, at->a, at->b),
+                                            triangle_cut(surgery, at->a, at->c));
+    case TEST_COLLAPSE_EDGE:
+        return mt_triangle_can_collapse_edge(surgery, side, at->a);
+    case TEST_REMOVE_FACE:
+        return mt_triangle_can_remove_face(surgery, at->face);
+    default:
+        return mt_triangle_can_add_face(surgery, at->count, at->vertices);
+    }
+}
+
+static mt_status triangle_operate(mt_context *context, void *surgery, const test_operation *at)
+{
+    mt_index side = mt_triangle_surgery_find(surgery, at->a, at->b);
+    switch (at->kind) {
+    case TEST_SWAP_EDGE:
+        return mt_triangle_swap_edge(context, surgery, side);
+    case TEST_SPLIT_EDGE:
+        return mt_triangle_split_edge(context, surgery, side, at->a, at->weight, NULL);
+    case TEST_SPLIT_VERTEX:
+        return mt_triangle_split_vertex(context, surgery, at->a, triangle_cut(surgery, at->a, at->b),
+                                        triangle_cut(surgery, at->a, at->c), NULL);
+    case TEST_COLLAPSE_EDGE:
+        return mt_triangle_collapse_edge(context, surgery, side, at->a, at->weight);
+    case TEST_REMOVE_FACE:
+        return mt_triangle_remove_face(context, surgery, at->face);
+    default:
+        return mt_triangle_add_face(context, surgery, at->count, at->vertices, NULL);
+    }
+}
+
+static const mt_edit_log *triangle_log(const void *surgery)
+{
+    return &((const mt_triangle_surgery *)surgery)->log;
+}
+
+static mt_status triangle_faces(mt_context *context, const void *surgery, mt_surgery_map *map, mt_mesh **out)
+{
+    *out = NULL;
+    mt_triangle_neighbor_mesh *structure = NULL;
+    mt_mesh *points = NULL;
+    mt_status status = mt_triangle_surgery_compact(context, surgery, map, &structure);
+    status = status == MT_OK ? mt_triangle_neighbor_validate(context, structure) : status;
+    if (status == MT_OK) {
+        points = test_points(context, structure->vertex_count);
+        status = points ? mt_triangle_neighbor_to_mesh(context, structure, points, out) : MT_ERROR_OUT_OF_MEMORY;
+    }
+    mt_mesh_destroy(context, points);
+    mt_triangle_neighbor_destroy(context, structure);
+    return status;
+}
+
+static uint64_t triangle_hash(const void *opaque)
+{
+    const mt_triangle_surgery *surgery = opaque;
+    const mt_triangle_neighbor_mesh *own = &surgery->structure;
+    size_t corner_count = 3 * (size_t)own->triangle_count;
+    uint64_t hashes[] = {test_hash(own->vertices, corner_count * sizeof(mt_index)),
+                         test_hash(own->neighbors, corner_count * sizeof(mt_index)),
+                         test_hash(own->vertex_corner, own->vertex_count * sizeof(mt_index)),
+                         test_hash(surgery->vertex_deleted, own->vertex_count),
+                         test_hash(surgery->marks, own->vertex_count),
+                         surgery->log.count};
+    return test_hash(hashes, sizeof hashes);
+}
+
 mt_mesh *test_points(mt_context *context, mt_index count)
 {
     mt_mesh *mesh = NULL;
@@ -213,5 +321,7 @@ const test_surgeon test_surgeons[] = {
      halfedge_faces, halfedge_hash},
     {"winged-edge", false, winged_create, winged_destroy, winged_judge, winged_operate, winged_log, winged_faces,
      winged_hash},
+    {"triangle-neighbor", true, triangle_create, triangle_destroy, triangle_judge, triangle_operate, triangle_log,
+     triangle_faces, triangle_hash},
 };
 const size_t test_surgeon_count = sizeof test_surgeons / sizeof *test_surgeons;

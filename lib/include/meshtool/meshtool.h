@@ -22,19 +22,20 @@
 #include <meshtool/weld.h>             /* points at one place become one */
 
 /* Connectivity */
-#include <meshtool/components.h>          /* connected faces, orientability */
-#include <meshtool/degenerate_faces.h>    /* faces that name a vertex twice */
-#include <meshtool/edge_pairs.h>          /* which sides share an edge */
-#include <meshtool/edit_log.h>            /* what surgery did, for what lies on the mesh */
-#include <meshtool/halfedge.h>            /* half-edges in pairs */
-#include <meshtool/halfedge_surgery.h>    /* swap, split, collapse, remove and add on them */
-#include <meshtool/refusal.h>             /* why a mesh is not what these need, and what can mend it */
-#include <meshtool/split_non_manifold.h>  /* repeated vertices where no structure can hold one */
-#include <meshtool/surgery.h>             /* what these operations do, and when they may */
-#include <meshtool/triangle_neighbor.h>   /* triangles and what lies across their sides */
-#include <meshtool/vertex_fans.h>         /* how the faces around a vertex hang together */
-#include <meshtool/winged_edge.h>         /* edges with their vertices, faces and wings */
-#include <meshtool/winged_edge_surgery.h> /* swap, split, collapse, remove and add on them */
+#include <meshtool/components.h>                /* connected faces, orientability */
+#include <meshtool/degenerate_faces.h>          /* faces that name a vertex twice */
+#include <meshtool/edge_pairs.h>                /* which sides share an edge */
+#include <meshtool/edit_log.h>                  /* what surgery did, for what lies on the mesh */
+#include <meshtool/halfedge.h>                  /* half-edges in pairs */
+#include <meshtool/halfedge_surgery.h>          /* swap, split, collapse, remove and add on them */
+#include <meshtool/refusal.h>                   /* why a mesh is not what these need, and what can mend it */
+#include <meshtool/split_non_manifold.h>        /* repeated vertices where no structure can hold one */
+#include <meshtool/surgery.h>                   /* what these operations do, and when they may */
+#include <meshtool/triangle_neighbor.h>         /* triangles and what lies across their sides */
+#include <meshtool/triangle_neighbor_surgery.h> /* swap, split, collapse, remove and add on them */
+#include <meshtool/vertex_fans.h>               /* how the faces around a vertex hang together */
+#include <meshtool/winged_edge.h>               /* edges with their vertices, faces and wings */
+#include <meshtool/winged_edge_surgery.h>       /* swap, split, collapse, remove and add on them */
 
 /* Space */
 #include <meshtool/aabb_tree.h>    /* a tree of boxes over triangles */
