@@ -7,12 +7,8 @@
  * instead of multiplied to the distance, which costs nothing in the loop). */
 #include <meshtool/surface_tree.h>
 
-#include <meshtool/clones.h>
-
 #include "lib/spatial/ray_formulas.h"
-#include "lib/spatial/surface_tree.h"
-
-#include <string.h>
+#include "lib/spatial/surface_walk.h"
 
 /* Of the ray's slack: the slab's own subtraction, reciprocal and product round by half a unit each, the slack is eight.
  */
@@ -27,11 +23,6 @@ typedef struct ray_walk {
     float begin, limit;                                 /* parameters in space between which boxes count */
     mt_ray_hit best;
 } ray_walk;
-
-typedef struct pending {
-    float near;
-    uint32_t child;
-} pending;
 
 /* A parameter in space not below that of t, as a float. */
 static float parameter_above(const mt_ray_setup *setup, double t)
@@ -60,16 +51,6 @@ static void start_walk(ray_walk *walk)
     walk->best = mt_ray_no_hit();
 }
 
-/* Loops over lanes with a scalar body, which compilers turn into vectors, are the portable form of the tests below. */
-MT_INLINE uint32_t bits_of(const int32_t passes[MT_WIDTH])
-{
-    int32_t bits = 0;
-    for (int lane = 0; lane < MT_WIDTH; lane++) {
-        bits |= passes[lane];
-    }
-    return (uint32_t)bits;
-}
-
 /* Where the ray enters each child; returns the bits of those that it meets. A NaN leaves the other operand. */
 MT_INLINE uint32_t enter_children(const ray_walk *walk, const mt_surface_node *node, float near[MT_WIDTH])
 {
@@ -93,7 +74,7 @@ MT_INLINE uint32_t enter_children(const ray_walk *walk, const mt_surface_node *n
         near[lane] = enters;
         passes[lane] = enters <= leaves ? 1 << lane : 0;
     }
-    return bits_of(passes);
+    return mt_bits_of(passes);
 }
 
 /* The same coordinate of a leaf's corners, in the order of the ray's axes. */
@@ -101,12 +82,12 @@ typedef struct leaf_view {
     const float *corners[3][3];
 } leaf_view;
 
-MT_INLINE leaf_view view_leaf(const ray_walk *walk, const float *words, mt_index count)
+MT_INLINE leaf_view view_leaf(const ray_walk *walk, const float *rows, mt_index count)
 {
     leaf_view view;
     for (int corner = 0; corner < 3; corner++) {
         for (int i = 0; i < 3; i++) {
-            view.corners[corner][i] = words + (size_t)(3 * corner + walk->setup.axes[i]) * count;
+            view.corners[corner][i] = rows + (size_t)(3 * corner + walk->setup.axes[i]) * count;
         }
     }
     return view;
@@ -136,7 +117,7 @@ MT_INLINE uint32_t filter_edges(const ray_walk *walk, const leaf_view *view, flo
         float margin = slack * (size + slack) * 2;
         passes[lane] = (low >= -margin) | (high <= margin) ? 1 << lane : 0;
     }
-    return bits_of(passes);
+    return mt_bits_of(passes);
 }
 
 /* The same operations as the hit function's, so that nothing is lost. */
@@ -157,17 +138,16 @@ MT_INLINE uint32_t filter_fast(const ray_walk *walk, const leaf_view *view)
         u *= sign, v *= sign, determinant *= sign;
         passes[lane] = (determinant > 0) & (u >= 0) & (v >= 0) & (u + v <= determinant) ? 1 << lane : 0;
     }
-    return bits_of(passes);
+    return mt_bits_of(passes);
 }
 
 /* Asks the hit function of what passed the filter. Returns true when the walk is over. */
-static bool decide_leaf(ray_walk *walk, const float *words, mt_index count, uint32_t bits)
+static bool decide_leaf(ray_walk *walk, const float *rows, mt_index count, uint32_t bits)
 {
     for (; bits; bits &= bits - 1) {
-        mt_index lane = (mt_index)__builtin_ctz(bits), number;
+        mt_index lane = (mt_index)__builtin_ctz(bits), number = mt_leaf_number(rows, count, lane);
         mt_ray_triangle triangle;
         mt_ray_hit hit;
-        memcpy(&number, words + 9 * (size_t)count + lane, sizeof number);
         if (number >= walk->tree->numbering.wires) {
             continue;
         }
@@ -176,7 +156,7 @@ static bool decide_leaf(ray_walk *walk, const float *words, mt_index count, uint
                                  &triangle);
         } else {
             for (mt_index i = 0; i < 9; i++) {
-                triangle.corners[i / 3][i % 3] = (double)words[i * (size_t)count + lane];
+                triangle.corners[i / 3][i % 3] = (double)rows[i * (size_t)count + lane];
             }
         }
         if (mt_ray_hit_triangle(&walk->setup, &triangle, number, &hit) && mt_ray_hit_is_nearer(&hit, &walk->best)) {
@@ -193,9 +173,8 @@ static bool decide_leaf(ray_walk *walk, const float *words, mt_index count, uint
 MT_INLINE bool visit_leaf(ray_walk *walk, uint32_t child)
 {
     mt_index count = mt_surface_leaf_count(child);
-    const float *words =
-        (const float *)(const void *)(walk->tree->words + (size_t)mt_surface_leaf_first(child) * MT_SURFACE_WORDS);
-    const leaf_view view = view_leaf(walk, words, count);
+    const float *rows = mt_leaf_rows(walk->tree, child);
+    const leaf_view view = view_leaf(walk, rows, count);
     uint32_t bits = 0;
     switch (walk->setup.profile) {
     case MT_RAY_WATERTIGHT:
@@ -209,33 +188,16 @@ MT_INLINE bool visit_leaf(ray_walk *walk, uint32_t child)
         break;
     }
     bits &= (1u << count) - 1;
-    return bits && decide_leaf(walk, words, count, bits);
-}
-
-/* Pushes the children met, the nearest on top. */
-MT_INLINE size_t push_children(const mt_surface_node *node, const float near[MT_WIDTH], uint32_t bits, pending *stack,
-                               size_t depth)
-{
-    size_t bottom = depth;
-    for (; bits; bits &= bits - 1) {
-        int slot = __builtin_ctz(bits);
-        pending item = {near[slot], node->children[slot]};
-        size_t at = depth++;
-        for (; at > bottom && stack[at - 1].near < item.near; at--) {
-            stack[at] = stack[at - 1];
-        }
-        stack[at] = item;
-    }
-    return depth;
+    return bits && decide_leaf(walk, rows, count, bits);
 }
 
 MT_CLONES static void walk_tree(ray_walk *walk)
 {
-    pending stack[MT_SURFACE_STACK];
+    mt_pending stack[MT_SURFACE_STACK];
     size_t depth = 1;
-    stack[0] = (pending){walk->begin, 0};
+    stack[0] = (mt_pending){walk->begin, 0};
     while (depth) {
-        pending item = stack[--depth];
+        mt_pending item = stack[--depth];
         if (item.near > walk->limit) {
             continue;
         }
@@ -248,7 +210,7 @@ MT_CLONES static void walk_tree(ray_walk *walk)
         const mt_surface_node *node = &walk->tree->nodes[item.child];
         float near[MT_WIDTH];
         uint32_t bits = enter_children(walk, node, near);
-        depth = push_children(node, near, bits, stack, depth);
+        depth = mt_push_children(node, near, bits, stack, depth);
     }
 }
 

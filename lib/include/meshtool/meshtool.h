@@ -38,9 +38,10 @@
 #include <meshtool/winged_edge_surgery.h>       /* swap, split, collapse, remove and add on them */
 
 /* Space */
-#include <meshtool/aabb_tree.h>    /* a tree of boxes over triangles */
-#include <meshtool/ray.h>          /* where a ray meets a triangle */
-#include <meshtool/surface_tree.h> /* a wide tree for rays and closest points */
+#include <meshtool/aabb_tree.h>     /* a tree of boxes over triangles */
+#include <meshtool/closest_point.h> /* nearest points of triangles, wires and points */
+#include <meshtool/ray.h>           /* where a ray meets a triangle */
+#include <meshtool/surface_tree.h>  /* a wide tree for rays and closest points */
 
 /* Algorithms */
 #include <meshtool/manifold.h>          /* the check that finds everything */

@@ -1,0 +1,280 @@
+/* Nearest points through the tree: boxes and elements are culled by lower bounds of their squared distance in float,
+ * eight at a time; what may be nearest, or as near, is measured in double (element_distance.c). Depth-first on a
+ * bounded stack, or best-first from a bounded heap, in which case what finds no room is searched depth-first.
+ *
+ * Cost: about the logarithm of the count near the surface; for a point in the middle of a sphere every element. */
+#include <meshtool/closest_point.h>
+
+#include "lib/spatial/element_distance.h"
+#include "lib/spatial/surface_walk.h"
+
+/* Room of the heap: an array on the stack, for there is no context to allocate from. */
+#define HEAP_SIZE 512
+
+/* Relative loss of a squared float distance: subtraction, square and two sums round by half a unit each. */
+#define BELOW 0.9999995f
+
+/* What rounding takes from the float distance to an element, in units of the reach (1 + the point's largest
+ * coordinate): corners and point round by half of 2^-24 each, the arithmetic by some more. */
+#define DISTANCE_MARGIN 0x1p-21f
+#define ROUNDING 0x1p-21f
+
+typedef struct nearest_walk {
+    const mt_surface_tree *tree;
+    mt_vec3 scaled;               /* the point times the space's scale */
+    float low[3], high[3], at[3]; /* the point in space, rounded down, up, to nearest */
+    float margin;
+    float limit; /* not below the best squared distance */
+    mt_index element;
+    mt_element_distance best;
+    double distance; /* of the best, in space */
+} nearest_walk;
+
+static float above(double x)
+{
+    float f = (float)x;
+    return (double)f < x ? nextafterf(f, INFINITY) : f;
+}
+
+/* Nothing farther counts from now on; several squares have the same root. */
+static void bound(nearest_walk *walk, double distance)
+{
+    walk->distance = distance;
+    walk->limit = above(distance * distance * (1 + 0x1p-50));
+}
+
+static void keep(nearest_walk *walk, mt_index number, const mt_element_distance *found)
+{
+    double distance = sqrt(found->square), best = walk->distance;
+    if (distance < best || (distance == best && number < walk->element)) {
+        walk->best = *found;
+        walk->element = number;
+        bound(walk, distance);
+    }
+}
+
+/* Squared distances of a node's boxes, none too large; returns the bits of those not beyond the limit. */
+MT_INLINE uint32_t approach_children(const nearest_walk *walk, const mt_surface_node *node, float near[MT_WIDTH])
+{
+    const float limit = walk->limit;
+    const float lx = walk->low[0], ly = walk->low[1], lz = walk->low[2];
+    const float hx = walk->high[0], hy = walk->high[1], hz = walk->high[2];
+    int32_t passes[MT_WIDTH];
+    for (int lane = 0; lane < MT_WIDTH; lane++) {
+        float x = node->planes[0][lane] - hx, x2 = lx - node->planes[1][lane];
+        float y = node->planes[2][lane] - hy, y2 = ly - node->planes[3][lane];
+        float z = node->planes[4][lane] - hz, z2 = lz - node->planes[5][lane];
+        x = x > x2 ? x : x2;
+        y = y > y2 ? y : y2;
+        z = z > z2 ? z : z2;
+        x = x > 0 ? x : 0;
+        y = y > 0 ? y : 0;
+        z = z > 0 ? z : 0;
+        near[lane] = (x * x + y * y + z * z) * BELOW;
+        passes[lane] = near[lane] <= limit ? 1 << lane : 0;
+    }
+    return mt_bits_of(passes);
+}
+
+/* Squared distance from the origin to the side from a to b, where e = b - a. */
+MT_INLINE float side_square(float ax, float ay, float az, float ex, float ey, float ez)
+{
+    float length = ex * ex + ey * ey + ez * ez;
+    float along = -(ax * ex + ay * ey + az * ez) / (length > 0x1p-120f ? length : 0x1p-120f);
+    along = along > 0 ? along : 0;
+    along = along < 1 ? along : 1;
+    float x = ax + along * ex, y = ay + along * ey, z = az + along * ez;
+    return x * x + y * y + z * z;
+}
+
+/* Bits of the elements that may be as near as the best: their float distance, less what it may be off, is not beyond
+ * it. It is that of the foot unless that surely lies outside, which is never above the sides'. `wrong` is what the
+ * normal may be off, by its own rounding and by that of the corners; slivers become candidates by it. */
+MT_INLINE uint32_t filter_elements(const nearest_walk *walk, const float *rows, mt_index count)
+{
+    const float qx = walk->at[0], qy = walk->at[1], qz = walk->at[2];
+    const float best = sqrtf(walk->limit) * 1.000001f, margin = walk->margin;
+    const float *r[9];
+    int32_t passes[MT_WIDTH];
+    for (int i = 0; i < 9; i++) {
+        r[i] = rows + (size_t)i * count;
+    }
+    for (int lane = 0; lane < MT_WIDTH; lane++) {
+        float ax = r[0][lane] - qx, ay = r[1][lane] - qy, az = r[2][lane] - qz;
+        float bx = r[3][lane] - qx, by = r[4][lane] - qy, bz = r[5][lane] - qz;
+        float cx = r[6][lane] - qx, cy = r[7][lane] - qy, cz = r[8][lane] - qz;
+        float ux = bx - ax, uy = by - ay, uz = bz - az, vx = cx - ax, vy = cy - ay, vz = cz - az;
+        float ab = side_square(ax, ay, az, ux, uy, uz), ac = side_square(ax, ay, az, vx, vy, vz);
+        float bc = side_square(bx, by, bz, cx - bx, cy - by, cz - bz);
+        float side = ab < ac ? ab : ac;
+        side = bc < side ? bc : side;
+        float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+        float length = sqrtf(nx * nx + ny * ny + nz * nz);
+        float sides = ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz;
+        float size = ax * ax + ay * ay + az * az + bx * bx + by * by + bz * bz + cx * cx + cy * cy + cz * cz;
+        float wrong = ROUNDING * sides + margin * sqrtf(sides), root = sqrtf(size);
+        float u = nx * (by * cz - bz * cy) + ny * (bz * cx - bx * cz) + nz * (bx * cy - by * cx);
+        float v = nx * (cy * az - cz * ay) + ny * (cz * ax - cx * az) + nz * (cx * ay - cy * ax);
+        float w = nx * (ay * bz - az * by) + ny * (az * bx - ax * bz) + nz * (ax * by - ay * bx);
+        float low = u < v ? u : v;
+        low = w < low ? w : low;
+        float divisor = length > 0x1p-60f ? length : 0x1p-60f;
+        float foot = (nx * ax + ny * ay + nz * az) / divisor;
+        bool is_outside = low < -(wrong * size + length * (margin * root + ROUNDING * size));
+        float square = is_outside ? side : foot * foot;
+        float reach = best + margin + (is_outside ? 0 : root * wrong / divisor);
+        passes[lane] = square <= reach * reach ? 1 << lane : 0;
+    }
+    return mt_bits_of(passes);
+}
+
+MT_INLINE void visit_leaf(nearest_walk *walk, uint32_t child)
+{
+    mt_index count = mt_surface_leaf_count(child);
+    const float *rows = mt_leaf_rows(walk->tree, child);
+    uint32_t bits = filter_elements(walk, rows, count) & ((1u << count) - 1);
+    for (; bits; bits &= bits - 1) {
+        mt_index number = mt_leaf_number(rows, count, (mt_index)__builtin_ctz(bits));
+        mt_element_distance found = mt_element_distance_to(walk->tree, number, walk->scaled);
+        keep(walk, number, &found);
+    }
+}
+
+MT_CLONES static void walk_depth_first(nearest_walk *walk, mt_pending start)
+{
+    mt_pending stack[MT_SURFACE_STACK];
+    size_t depth = 1;
+    stack[0] = start;
+    while (depth) {
+        mt_pending item = stack[--depth];
+        if (item.near > walk->limit) {
+            continue;
+        }
+        if (item.child & MT_SURFACE_LEAF) {
+            visit_leaf(walk, item.child);
+            continue;
+        }
+        float near[MT_WIDTH];
+        const mt_surface_node *node = &walk->tree->nodes[item.child];
+        uint32_t bits = approach_children(walk, node, near);
+        depth = mt_push_children(node, near, bits, stack, depth);
+    }
+}
+
+static void heap_push(mt_pending *heap, size_t at, mt_pending item)
+{
+    while (at && heap[(at - 1) / 2].near > item.near) {
+        heap[at] = heap[(at - 1) / 2];
+        at = (at - 1) / 2;
+    }
+    heap[at] = item;
+}
+
+/* Takes the nearest out of a heap of `size`, which then has one less. */
+static mt_pending heap_pop(mt_pending *heap, size_t size)
+{
+    mt_pending nearest = heap[0], last = heap[size - 1];
+    size_t at = 0;
+    for (;;) {
+        size_t child = 2 * at + 1;
+        child += child + 1 < size - 1 && heap[child + 1].near < heap[child].near;
+        if (child >= size - 1 || heap[child].near >= last.near) {
+            break;
+        }
+        heap[at] = heap[child];
+        at = child;
+    }
+    heap[at] = last;
+    return nearest;
+}
+
+/* Opens a node into the heap; false when there was no room for all of its children, and none was put in. */
+MT_CLONES static bool open_node(nearest_walk *walk, const mt_pending *item, mt_pending *heap, size_t *size)
+{
+    float near[MT_WIDTH];
+    const mt_surface_node *node = &walk->tree->nodes[item->child];
+    uint32_t bits = approach_children(walk, node, near);
+    if (*size + MT_WIDTH > HEAP_SIZE) {
+        return false;
+    }
+    for (; bits; bits &= bits - 1) {
+        int slot = __builtin_ctz(bits);
+        heap_push(heap, (*size)++, (mt_pending){near[slot], node->children[slot]});
+    }
+    return true;
+}
+
+static void walk_best_first(nearest_walk *walk)
+{
+    mt_pending heap[HEAP_SIZE];
+    size_t size = 1;
+    heap[0] = (mt_pending){0, 0};
+    while (size) {
+        mt_pending item = heap_pop(heap, size--);
+        if (item.near > walk->limit) {
+            return;
+        }
+        if ((item.child & MT_SURFACE_LEAF) || !open_node(walk, &item, heap, &size)) {
+            walk_depth_first(walk, item);
+        }
+    }
+}
+
+static void start_walk(nearest_walk *walk, mt_vec3 point, const mt_closest_options *options)
+{
+    mt_vec3 q = mt_ray_space_point(&walk->tree->space, point);
+    const double x[3] = {q.x, q.y, q.z};
+    for (int axis = 0; axis < 3; axis++) {
+        walk->at[axis] = (float)x[axis];
+        walk->high[axis] = above(x[axis]);
+        walk->low[axis] = -above(-x[axis]);
+    }
+    walk->scaled = mt_vec3_scale(point, walk->tree->space.scale);
+    walk->margin = DISTANCE_MARGIN * (1 + (float)mt_vec3_max_abs(q));
+    walk->element = MT_NONE;
+    bound(walk, options->maximum > 0 ? options->maximum * walk->tree->space.scale : INFINITY);
+    if (options->has_hint) {
+        mt_element_distance found = mt_element_distance_to(walk->tree, options->hint, walk->scaled);
+        keep(walk, options->hint, &found);
+    }
+}
+
+static void report(const mt_surface_tree *tree, mt_index number, const mt_element_distance *found, mt_closest *out)
+{
+    mt_surface_element element = mt_surface_element_of(tree->mesh, tree->triangulation, &tree->numbering, number);
+    *out = (mt_closest){.distance = sqrt(found->square) / tree->space.scale, .element = number};
+    for (int i = 0; i < 3; i++) {
+        out->weights[i] = found->weights[i];
+        mt_vec3 vertex = mt_mesh_position(tree->mesh, element.vertices[i]);
+        out->point = mt_vec3_add(out->point, mt_vec3_scale(vertex, found->weights[i]));
+    }
+}
+
+bool mt_surface_tree_closest(const mt_surface_tree *tree, mt_vec3 point, const mt_closest_options *options,
+                             mt_closest *out)
+{
+    const mt_closest_options defaults = {0};
+    options = options ? options : &defaults;
+    *out = (mt_closest){.distance = INFINITY, .element = MT_NONE};
+    if (!tree->node_count || !mt_vec3_is_finite(mt_ray_space_point(&tree->space, point))) {
+        return false;
+    }
+    nearest_walk walk = {.tree = tree};
+    start_walk(&walk, point, options);
+    if (options->order == MT_CLOSEST_BEST_FIRST) {
+        walk_best_first(&walk);
+    } else {
+        walk_depth_first(&walk, (mt_pending){0, 0});
+    }
+    if (walk.element == MT_NONE) {
+        return false;
+    }
+    report(tree, walk.element, &walk.best, out);
+    return true;
+}
+
+void mt_surface_element_closest(const mt_surface_tree *tree, mt_index element, mt_vec3 point, mt_closest *out)
+{
+    mt_element_distance found = mt_element_distance_to(tree, element, mt_vec3_scale(point, tree->space.scale));
+    report(tree, element, &found, out);
+}
