@@ -1,118 +1,83 @@
 /* meshtool subdivide: Catmull-Clark refinement. */
+#include "crease_list.h"
 #include "files.h"
 #include "message.h"
 #include "progress.h"
-#include "quantity.h"
+#include "subdivision.h"
 
-#include <meshtool/subdivide.h>
+#include <meshtool/elementary.h>
 
-typedef struct subdivide_settings {
-    cli_common common;
-    unsigned levels;
-    bool dry_run;
-} subdivide_settings;
+/* Each list begins with what the mesh asks for by its tags, as the library's enumerations do. */
+static const char *const boundaries[] = {"as-tagged", "smooth", "corners", "none", NULL};
+static const char *const crease_methods[] = {"as-tagged", "normal", "chaikin", NULL};
+static const char *const triangles[] = {"as-tagged", "normal", "smooth", NULL};
+static const char *const face_varyings[] = {
+    "as-tagged", "all", "none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "linear", NULL};
+#define LINEAR_PLACE 7 /* of "linear", another word for all */
 
 static const cli_option options[] = {
     {.name = "levels",
      .letter = 'n',
-     .offset = offsetof(subdivide_settings, levels),
+     .offset = offsetof(cli_subdivide_settings, levels),
      .parse = cli_parse_count,
      .argument = "LEVELS",
      .expects = "a whole number from 0 to 31",
      .maximum = MT_SUBDIVIDE_LEVEL_LIMIT,
      .help = "how often to refine, each level making four times the faces; 1"},
+    {.name = "boundary",
+     .offset = offsetof(cli_subdivide_settings, boundary),
+     .parse = cli_parse_choice,
+     .argument = "RULE",
+     .expects = "smooth, corners, none or as-tagged",
+     .choices = boundaries,
+     .help = "smooth: boundaries are B-splines; corners: and vertices of one face stay; none: the faces at boundaries "
+             "become holes; smooth, unless the file has a tag"},
+    {.name = "crease-angle",
+     .offset = offsetof(cli_subdivide_settings, crease_angle),
+     .parse = cli_parse_number,
+     .argument = "DEGREES",
+     .expects = "an angle above 0 and up to 180",
+     .minimum = 1e-9,
+     .maximum = 180,
+     .help = "keep edges sharp at which faces turn by more than this"},
+    {.name = "creases",
+     .offset = offsetof(cli_subdivide_settings, creases),
+     .parse = cli_parse_text,
+     .argument = "FILE",
+     .expects = "a file",
+     .help = "lines of \"crease A B SHARPNESS\", \"corner V SHARPNESS\" and \"hole F\", all counted from 0"},
+    {.name = "crease-method",
+     .offset = offsetof(cli_subdivide_settings, crease_method),
+     .parse = cli_parse_choice,
+     .argument = "METHOD",
+     .expects = "normal, chaikin or as-tagged",
+     .choices = crease_methods,
+     .help = "normal: sharpness falls by 1 a level; chaikin: it is evened out along creases, too; normal, unless the "
+             "file has a tag"},
+    {.name = "uv",
+     .offset = offsetof(cli_subdivide_settings, face_varying),
+     .parse = cli_parse_choice,
+     .argument = "RULE",
+     .expects = "all (or linear), none, corners-only, corners-plus1, corners-plus2, boundaries or as-tagged",
+     .choices = face_varyings,
+     .help = "where values at corners are linear: all, none, corners-only, corners-plus1, corners-plus2 or boundaries, "
+             "as OpenSubdiv has them; all, unless the file has a tag"},
+    {.name = "triangles",
+     .offset = offsetof(cli_subdivide_settings, triangles),
+     .parse = cli_parse_choice,
+     .argument = "RULE",
+     .expects = "normal, smooth or as-tagged",
+     .choices = triangles,
+     .help = "smooth: other weights beside triangles, which ripple less; normal, unless the file has a tag"},
     {.name = "dry-run",
-     .offset = offsetof(subdivide_settings, dry_run),
-     .help = "only say the counts and bytes of each level; needs no -o"},
+     .offset = offsetof(cli_subdivide_settings, dry_run),
+     .help = "only say the counts, bytes and expected time of each level; needs no -o"},
     {0},
 };
 
-static json_t *counts_json(unsigned level, const mt_subdivide_counts *counts)
-{
-    json_t *object = cli_json_object();
-    cli_json_set(object, "level", cli_json_integer(level));
-    cli_json_set(object, "vertices", cli_json_integer((int64_t)counts->vertex_count));
-    cli_json_set(object, "edges", cli_json_integer((int64_t)counts->edge_count));
-    cli_json_set(object, "faces", cli_json_integer((int64_t)counts->face_count));
-    cli_json_set(object, "corners", cli_json_integer((int64_t)counts->corner_count));
-    cli_json_set(object, "bytes", cli_json_integer((int64_t)counts->bytes));
-    return object;
-}
-
-static void print_counts(unsigned level, const mt_subdivide_counts *counts)
-{
-    if (level == 0) {
-        printf("level %15s %15s %15s %12s\n", "vertices", "edges", "faces", "memory");
-    }
-    printf("%5u %15s %15s %15s %12s\n", level, cli_count((int64_t)counts->vertex_count).text,
-           cli_count((int64_t)counts->edge_count).text, cli_count((int64_t)counts->face_count).text,
-           cli_bytes(counts->bytes).text);
-}
-
-/* One level after the other, up to one that a mesh cannot hold. */
-static cli_exit list_levels(const cli_job *job, const mt_mesh *mesh, const mt_edge_pairs *pairs, json_t *levels)
-{
-    const subdivide_settings *settings = job->settings;
-    for (unsigned level = 0; level <= settings->levels; level++) {
-        mt_subdivide_counts counts;
-        if (mt_subdivide_count(job->context, mesh, pairs, level, &counts) != MT_OK) {
-            return cli_report_failure(job, job->operands[0]);
-        }
-        if (job->common->json) {
-            cli_json_append(levels, counts_json(level, &counts));
-        } else {
-            print_counts(level, &counts);
-        }
-    }
-    return CLI_EXIT_DONE;
-}
-
-static cli_exit print_levels(const cli_job *job, const mt_mesh *mesh, const mt_edge_pairs *pairs)
-{
-    json_t *levels = cli_json_array(), *object = cli_json_object();
-    cli_exit code = list_levels(job, mesh, pairs, levels);
-    cli_json_set(object, "file", cli_json_text(job->operands[0]));
-    cli_json_set(object, "levels", levels);
-    if (job->common->json && code == CLI_EXIT_DONE) {
-        cli_json_print_line(object);
-    }
-    json_decref(object);
-    return code;
-}
-
-/* What the real run would refuse, the dry one refuses too, in the same words: one level is tried. */
-static cli_exit check_refusals(const cli_job *job, const mt_mesh *mesh)
-{
-    mt_mesh *refined = NULL;
-    mt_status status = mt_subdivide(job->context, mesh, NULL, &refined);
-    mt_mesh_destroy(job->context, refined);
-    if (status == MT_ERROR_NOT_MANIFOLD || status == MT_ERROR_NOT_ORIENTED || status == MT_ERROR_CANCELLED) {
-        return cli_report_failure(job, job->operands[0]);
-    }
-    mt_context_clear_error(job->context);
-    return CLI_EXIT_DONE;
-}
-
-static cli_exit dry_run(const cli_job *job, const mt_mesh *mesh)
-{
-    const subdivide_settings *settings = job->settings;
-    cli_exit code = settings->levels ? check_refusals(job, mesh) : CLI_EXIT_DONE;
-    if (code != CLI_EXIT_DONE) {
-        return code;
-    }
-    mt_edge_pairs *pairs = NULL;
-    if (mt_edge_pairs_create(job->context, mesh, &pairs) != MT_OK) {
-        return cli_report_failure(job, job->operands[0]);
-    }
-    cli_progress_clear();
-    code = print_levels(job, mesh, pairs);
-    mt_edge_pairs_destroy(job->context, pairs);
-    return code;
-}
-
 static void print_json(const cli_job *job, const mt_mesh_format *read, const mt_mesh *mesh, json_t *lost)
 {
-    const subdivide_settings *settings = job->settings;
+    const cli_subdivide_settings *settings = job->settings;
     json_t *object = cli_json_object();
     cli_json_set(object, "file", cli_json_text(job->operands[0]));
     cli_json_set(object, "format", cli_json_text(read->name));
@@ -125,12 +90,11 @@ static void print_json(const cli_job *job, const mt_mesh_format *read, const mt_
     json_decref(object);
 }
 
-static cli_exit refine(const cli_job *job, const mt_mesh *mesh, const mt_mesh_format *read)
+static cli_exit refine(const cli_job *job, const mt_mesh *mesh, const mt_mesh_format *read,
+                       const mt_subdivide_options *how)
 {
-    unsigned levels = ((const subdivide_settings *)job->settings)->levels;
-    mt_subdivide_options how = {.level_count = levels, .no_levels = levels == 0};
     mt_mesh *refined = NULL;
-    if (mt_subdivide(job->context, mesh, &how, &refined) != MT_OK) {
+    if (mt_subdivide(job->context, mesh, how, &refined) != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }
     json_t *lost = NULL;
@@ -143,9 +107,37 @@ static cli_exit refine(const cli_job *job, const mt_mesh *mesh, const mt_mesh_fo
     return code;
 }
 
+static cli_exit run_on(const cli_job *job, const mt_mesh *mesh, const mt_mesh_format *read)
+{
+    const cli_subdivide_settings *settings = job->settings;
+    cli_crease_list list = {0};
+    cli_exit code = settings->creases ? cli_crease_list_read(job, settings->creases, mesh, &list) : CLI_EXIT_DONE;
+    mt_subdivide_options how = {
+        .level_count = settings->levels,
+        .no_levels = settings->levels == 0,
+        .boundary = (mt_subdivide_boundary)settings->boundary,
+        .crease_method = (mt_subdivide_crease_method)settings->crease_method,
+        .face_varying = settings->face_varying == LINEAR_PLACE ? MT_SUBDIVIDE_FACE_VARYING_ALL
+                                                               : (mt_subdivide_face_varying)settings->face_varying,
+        .triangles = (mt_subdivide_triangles)settings->triangles,
+        .crease_angle = settings->crease_angle * (MT_PI / 180),
+        .creases = list.creases,
+        .crease_count = list.crease_count,
+        .sharp_vertices = list.corners,
+        .sharp_vertex_count = list.corner_count,
+        .holes = list.holes,
+        .hole_count = list.hole_count,
+    };
+    if (code == CLI_EXIT_DONE) {
+        code = settings->dry_run ? cli_subdivide_foretell(job, mesh, &how) : refine(job, mesh, read, &how);
+    }
+    cli_crease_list_release(job, &list);
+    return code;
+}
+
 static cli_exit run(const cli_job *job)
 {
-    const subdivide_settings *settings = job->settings;
+    const cli_subdivide_settings *settings = job->settings;
     const mt_mesh_format *read = NULL, *written = NULL;
     cli_exit code = cli_check_inputs(job);
     if (code == CLI_EXIT_DONE && !settings->dry_run) {
@@ -156,28 +148,30 @@ static cli_exit run(const cli_job *job)
         code = cli_read_mesh(job, job->operands[0], &mesh, &read);
     }
     if (code == CLI_EXIT_DONE) {
-        code = settings->dry_run ? dry_run(job, mesh) : refine(job, mesh, read);
+        code = run_on(job, mesh, read);
     }
     mt_mesh_destroy(job->context, mesh);
     return code;
 }
 
-static const subdivide_settings defaults = {.levels = 1};
+static const cli_subdivide_settings defaults = {.levels = 1};
 
 const cli_command cli_subdivide_command = {
     .name = "subdivide",
     .usage = "IN -o OUT [-n LEVELS]",
     .summary = "Refine a mesh by Catmull-Clark subdivision",
     .description =
-        "Takes faces of any number of sides and makes quads of them; boundaries become cubic B-splines. Colours "
-        "follow the positions, texture coordinates are interpolated linearly. A mesh that is not manifold, "
+        "Takes faces of any number of sides and makes quads of them. Creases, corners, holes and boundaries are those "
+        "of OpenSubdiv: from OBJ tags (t crease 2/1/0 A B SHARPNESS and its kin), which options beat. Colours follow "
+        "the positions, texture coordinates are linear unless --uv says otherwise. A mesh that is not manifold, "
         "or whose faces are not oriented alike, is refused (exit 3); check-manifold shows where.",
     .examples = "  meshtool subdivide cow.obj -o smooth.obj -n 2\n"
+                "  meshtool subdivide part.stl -o rounded.obj -n 3 --crease-angle 40\n"
                 "  meshtool subdivide cow.obj -n 5 --dry-run\n",
     .options = options,
     .groups = CLI_GROUP_OUTPUT | CLI_GROUP_WRITE | CLI_GROUP_MESH | CLI_GROUP_READ | CLI_GROUP_PRECISION |
               CLI_GROUP_WORK | CLI_GROUP_EVERY,
-    .settings_size = sizeof(subdivide_settings),
+    .settings_size = sizeof(cli_subdivide_settings),
     .defaults = &defaults,
     .operand_minimum = 1,
     .operand_maximum = 1,

@@ -154,12 +154,17 @@ mt_status mt_subdivide_topology_of_mesh(mt_context *context, const mt_mesh *mesh
     return status;
 }
 
+/* Whether both ends of an edge have the same values on both sides. */
+static bool is_whole(const mt_index *indices, mt_index corner, mt_index next, mt_index twin, mt_index twin_next)
+{
+    return indices[corner] == indices[twin_next] && indices[next] == indices[twin];
+}
+
 /* The twin for the values: none across a seam, nor where a value is missing. */
 static mt_index value_twin(const mt_index *indices, mt_index corner, mt_index next, mt_index twin, mt_index twin_next)
 {
-    bool whole = indices[corner] != MT_NONE && indices[next] != MT_NONE && indices[corner] == indices[twin_next] &&
-                 indices[next] == indices[twin];
-    return whole ? twin : corner;
+    bool given = indices[corner] != MT_NONE && indices[next] != MT_NONE;
+    return given && is_whole(indices, corner, next, twin, twin_next) ? twin : corner;
 }
 
 typedef struct value_job {
@@ -242,14 +247,17 @@ static mt_index next_in_face(const mt_mesh *mesh, mt_index corner)
     return corner + 1 < mt_mesh_face_end(mesh, face) ? corner + 1 : mt_mesh_face_begin(mesh, face);
 }
 
-mt_index mt_subdivide_seam_count(const mt_mesh *mesh, const mt_edge_pairs *pairs, const mt_attribute *attribute)
+mt_index mt_subdivide_seam_count(const mt_mesh *mesh, const mt_edge_pairs *pairs, const mt_attribute *attribute,
+                                 bool missing_is_one)
 {
     mt_index count = 0;
     for (mt_index corner = 0; corner < mesh->corner_count; corner++) {
         mt_index twin = pairs->next_side[corner];
         if (twin != MT_NONE && twin > corner) {
-            count += value_twin(attribute->indices, corner, next_in_face(mesh, corner), twin,
-                                next_in_face(mesh, twin)) == corner;
+            mt_index next = next_in_face(mesh, corner), twin_next = next_in_face(mesh, twin);
+            bool whole = missing_is_one ? is_whole(attribute->indices, corner, next, twin, twin_next)
+                                        : value_twin(attribute->indices, corner, next, twin, twin_next) == twin;
+            count += !whole;
         }
     }
     return count;

@@ -1,6 +1,7 @@
 #include "lib/algorithms/subdivide_count.h"
 
 #include "lib/algorithms/subdivide_field.h"
+#include "lib/algorithms/subdivide_settings.h"
 
 #include <meshtool/checked.h>
 
@@ -37,25 +38,77 @@ mt_status mt_subdivide_check_size(mt_context *context, const mt_subdivide_size *
         MT_INDEX_MAX);
 }
 
-/* Values of an attribute at a level: those of a field grow like vertices. */
-static uint64_t value_count(const mt_mesh *mesh, const mt_edge_pairs *pairs, const mt_attribute *attribute,
-                            unsigned level, const mt_subdivide_size *size)
+/* What is counted, and how it is asked to be refined. */
+typedef struct count_job {
+    const mt_mesh *mesh;
+    const mt_edge_pairs *pairs;
+    bool smooth_values; /* corner attributes are not linear */
+    unsigned level;
+    mt_subdivide_size size; /* at the level */
+} count_job;
+
+/* Values of a corner attribute, each vertex having its own. Corners are gone through by value: chains of corners with
+ * the same value, and a stamp on the vertices that were met in the chain. */
+static mt_status count_values(mt_context *context, const count_job *job, const mt_attribute *attribute, uint64_t *count)
 {
-    const uint64_t domain_counts[] = {1, size->vertices, size->corners, size->faces};
-    if (level == 0 || mt_subdivide_carriage_of(attribute) != MT_SUBDIVIDE_CARRY_FIELD) {
-        return attribute->indices || level == 0 ? attribute->value_count : domain_counts[attribute->domain];
+    const mt_mesh *mesh = job->mesh;
+    uint64_t chain_count = (uint64_t)attribute->value_count + 1;
+    mt_index *heads = mt_allocate_array(context, chain_count, sizeof *heads);
+    mt_index *next = mt_allocate_array(context, mesh->corner_count, sizeof *next);
+    mt_index *stamps = mt_allocate_array(context, mesh->vertex_count, sizeof *stamps);
+    bool complete = heads && next && stamps;
+    *count = 0;
+    for (uint64_t i = 0; complete && i < chain_count; i++) {
+        heads[i] = MT_NONE;
+    }
+    for (mt_index vertex = 0; complete && vertex < mesh->vertex_count; vertex++) {
+        stamps[vertex] = MT_NONE;
+    }
+    for (mt_index corner = 0; complete && corner < mesh->corner_count; corner++) {
+        mt_index value = mt_attribute_value_index(attribute, corner);
+        mt_index *head = &heads[value == MT_NONE ? attribute->value_count : value];
+        next[corner] = *head;
+        *head = corner;
+    }
+    for (uint64_t chain = 0; complete && chain < chain_count; chain++) {
+        for (mt_index corner = heads[chain]; corner != MT_NONE; corner = next[corner]) {
+            mt_index *stamp = &stamps[mesh->corner_vertices[corner]];
+            *count += *stamp != (mt_index)chain;
+            *stamp = (mt_index)chain;
+        }
+    }
+    mt_free(context, heads);
+    mt_free(context, next);
+    mt_free(context, stamps);
+    return complete ? MT_OK : mt_context_error(context)->status;
+}
+
+/* Values of an attribute at the level: those of a field grow like vertices. */
+static mt_status value_count(mt_context *context, const count_job *job, const mt_attribute *attribute, uint64_t *count)
+{
+    const uint64_t domain_counts[] = {1, job->size.vertices, job->size.corners, job->size.faces};
+    if (job->level == 0 || mt_subdivide_carriage_of(attribute) != MT_SUBDIVIDE_CARRY_FIELD) {
+        *count = attribute->indices || job->level == 0 ? attribute->value_count : domain_counts[attribute->domain];
+        return MT_OK;
     }
     if (attribute->domain == MT_DOMAIN_VERTEX) {
-        return size->vertices;
+        *count = job->size.vertices;
+        return MT_OK;
     }
     mt_subdivide_size values = {.vertices = attribute->value_count,
-                                .faces = mesh->face_count,
-                                .corners = mesh->corner_count,
-                                .edges = mesh->corner_count};
-    if (attribute->indices) {
-        values.edges = (uint64_t)pairs->edge_count + mt_subdivide_seam_count(mesh, pairs, attribute);
+                                .faces = job->mesh->face_count,
+                                .corners = job->mesh->corner_count,
+                                .edges = job->mesh->corner_count};
+    mt_status status = MT_OK;
+    if (job->smooth_values) {
+        status = count_values(context, job, attribute, &values.vertices);
     }
-    return mt_subdivide_size_at(values, level).vertices;
+    if (attribute->indices) {
+        values.edges = (uint64_t)job->pairs->edge_count +
+                       mt_subdivide_seam_count(job->mesh, job->pairs, attribute, job->smooth_values);
+    }
+    *count = mt_subdivide_size_at(values, job->level).vertices;
+    return status;
 }
 
 static bool has_indices(const mt_attribute *attribute, unsigned level)
@@ -70,30 +123,78 @@ static uint64_t bytes_of(uint64_t count, uint64_t size)
     return mt_checked_multiply(count, size, &bytes) ? clamp(bytes) : SIZE_CLAMP;
 }
 
-static uint64_t attribute_bytes(const mt_mesh *mesh, const mt_edge_pairs *pairs, const mt_attribute *attribute,
-                                unsigned level, const mt_subdivide_size *size)
+static mt_status add_attribute_bytes(mt_context *context, const count_job *job, const mt_attribute *attribute,
+                                     uint64_t *bytes)
 {
-    const uint64_t domain_counts[] = {1, size->vertices, size->corners, size->faces};
-    uint64_t bytes = bytes_of(value_count(mesh, pairs, attribute, level, size),
-                              attribute->component_count * mt_type_size(attribute->type));
-    uint64_t indices = has_indices(attribute, level) ? domain_counts[attribute->domain] : 0;
-    return clamp(bytes + bytes_of(indices, sizeof(mt_index)));
+    const uint64_t domain_counts[] = {1, job->size.vertices, job->size.corners, job->size.faces};
+    uint64_t values = 0;
+    mt_status status = value_count(context, job, attribute, &values);
+    uint64_t indices = has_indices(attribute, job->level) ? domain_counts[attribute->domain] : 0;
+    *bytes = clamp(*bytes + bytes_of(values, attribute->component_count * mt_type_size(attribute->type)));
+    *bytes = clamp(*bytes + bytes_of(indices, sizeof(mt_index)));
+    return status;
 }
 
-mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs, unsigned level,
-                             mt_subdivide_counts *out)
+/* Without the holes: faces, corners and edges as of a mesh of the other faces. */
+static void leave_out_holes(const mt_mesh *mesh, const mt_edge_pairs *pairs, const uint8_t *holes, unsigned level,
+                            mt_subdivide_size *size)
 {
+    mt_subdivide_size kept = {0};
+    for (mt_index face = 0; face < mesh->face_count; face++) {
+        kept.faces += !holes[face];
+        for (mt_index c = mt_mesh_face_begin(mesh, face); !holes[face] && c < mt_mesh_face_end(mesh, face); c++) {
+            mt_index twin = pairs->next_side[c];
+            bool other = twin < mesh->corner_count && twin < c && !holes[mt_mesh_corner_face(mesh, twin)];
+            kept.corners++;
+            kept.edges += !other;
+        }
+    }
+    kept = mt_subdivide_size_at(kept, level);
+    size->faces = kept.faces;
+    size->corners = kept.corners;
+    size->edges = kept.edges;
+}
+
+static mt_status count_bytes(mt_context *context, const count_job *job, const uint8_t *holes, uint64_t *bytes)
+{
+    const mt_mesh *mesh = job->mesh;
+    mt_status status = MT_OK;
+    *bytes = clamp(bytes_of(job->size.vertices, 3 * mt_type_size(mesh->position_type)) +
+                   bytes_of(job->size.corners, sizeof(mt_index)));
+    if (job->level == 0 && mesh->face_offsets) {
+        *bytes += bytes_of(job->size.faces + 1, sizeof(mt_index));
+    }
+    const mt_attribute *marks = holes ? mt_mesh_find_holes(mesh) : NULL;
+    for (mt_index i = 0; status == MT_OK && i < mesh->attribute_count; i++) {
+        if (&mesh->attributes[i] != marks) {
+            status = add_attribute_bytes(context, job, &mesh->attributes[i], bytes);
+        }
+    }
+    *bytes = clamp(*bytes + bytes_of(bytes_of(job->size.faces, sizeof(mt_index)), mesh->label_set_count));
+    return status;
+}
+
+mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
+                             const mt_subdivide_options *options, unsigned level, mt_subdivide_counts *out)
+{
+    mt_subdivide_options settings;
     mt_subdivide_size size = {mesh->vertex_count, mesh->face_count, mesh->corner_count, pairs->edge_count};
-    size = mt_subdivide_size_at(size, level);
-    uint64_t bytes = clamp(bytes_of(size.vertices, 3 * mt_type_size(mesh->position_type)) +
-                           bytes_of(size.corners, sizeof(mt_index)));
-    if (level == 0 && mesh->face_offsets) {
-        bytes += bytes_of(size.faces + 1, sizeof(mt_index));
+    count_job job = {.mesh = mesh, .pairs = pairs, .level = level, .size = mt_subdivide_size_at(size, level)};
+    uint8_t *holes = NULL;
+    size = job.size;
+    *out = (mt_subdivide_counts){size.vertices, size.faces, size.corners, size.edges, 0};
+    mt_status status = mt_subdivide_settle(context, mesh, options, &settings);
+    if (status == MT_OK && level > 0) {
+        status = mt_subdivide_holes(context, mesh, pairs, &settings, &holes);
     }
-    for (mt_index i = 0; i < mesh->attribute_count; i++) {
-        bytes = clamp(bytes + attribute_bytes(mesh, pairs, &mesh->attributes[i], level, &size));
+    if (holes) {
+        leave_out_holes(mesh, pairs, holes, level, &job.size);
     }
-    bytes = clamp(bytes + bytes_of(bytes_of(size.faces, sizeof(mt_index)), mesh->label_set_count));
-    *out = (mt_subdivide_counts){size.vertices, size.faces, size.corners, size.edges, bytes};
-    return mt_subdivide_check_size(context, &size, level);
+    if (status == MT_OK) {
+        job.smooth_values = settings.face_varying != MT_SUBDIVIDE_FACE_VARYING_ALL;
+        *out = (mt_subdivide_counts){job.size.vertices, job.size.faces, job.size.corners, job.size.edges, 0};
+        status = count_bytes(context, &job, holes, &out->bytes);
+    }
+    mt_free(context, holes);
+    return status == MT_OK ? mt_subdivide_check_size(context, &size, level) : status;
 }

@@ -51,8 +51,10 @@ mt_status mt_subdivide_topology_of_values(mt_context *context, const mt_subdivid
 /* Finds vertex_corners of a level 0 that has none yet. */
 mt_status mt_subdivide_find_vertex_corners(mt_context *context, mt_subdivide_topology *topology);
 
-/* Edges of the mesh that a corner attribute splits in two. O(corners). */
-mt_index mt_subdivide_seam_count(const mt_mesh *mesh, const mt_edge_pairs *pairs, const mt_attribute *attribute);
+/* Edges of the mesh that a corner attribute splits in two; `missing_is_one`: corners without a value have the same one.
+ * O(corners). */
+mt_index mt_subdivide_seam_count(const mt_mesh *mesh, const mt_edge_pairs *pairs, const mt_attribute *attribute,
+                                 bool missing_is_one);
 
 /* One loop over the faces or vertices of a level: what it makes, and of which connectivity. */
 typedef struct mt_subdivide_loop {

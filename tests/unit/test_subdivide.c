@@ -166,7 +166,7 @@ static void check_counts(mt_context *context, test_random *random, mt_mesh *cage
     int64_t euler = (int64_t)cage->vertex_count + cage->face_count - pairs->edge_count;
     for (unsigned level = 0; level <= 3; level++) {
         mt_subdivide_counts counts;
-        assert_int_equal(mt_subdivide_count(context, cage, pairs, level, &counts), MT_OK);
+        assert_int_equal(mt_subdivide_count(context, cage, pairs, NULL, level, &counts), MT_OK);
         mt_subdivide_options options = {.level_count = level, .no_levels = level == 0};
         mt_mesh *refined = NULL;
         assert_int_equal(mt_subdivide(context, cage, &options, &refined), MT_OK);

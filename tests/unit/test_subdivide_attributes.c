@@ -271,7 +271,7 @@ static void test_counts_of_bytes(void **state)
     assert_int_equal(mt_edge_pairs_create(context, cage, &pairs), MT_OK);
     for (unsigned level = 1; level <= 4; level++) {
         mt_subdivide_counts counts;
-        assert_int_equal(mt_subdivide_count(context, cage, pairs, level, &counts), MT_OK);
+        assert_int_equal(mt_subdivide_count(context, cage, pairs, NULL, level, &counts), MT_OK);
         uint64_t before = mt_context_bytes(context);
         mt_mesh *refined = subdivide(context, cage, level);
         uint64_t held = mt_context_bytes(context) - before;

@@ -135,10 +135,10 @@ static void test_limits(void **state)
     mt_edge_pairs *pairs = NULL;
     assert_int_equal(mt_edge_pairs_create(context, cube, &pairs), MT_OK);
     mt_subdivide_counts counts;
-    assert_int_equal(mt_subdivide_count(context, cube, pairs, 13, &counts), MT_OK);
+    assert_int_equal(mt_subdivide_count(context, cube, pairs, NULL, 13, &counts), MT_OK);
     assert_int_equal(counts.face_count, (uint64_t)6 << 26);
     assert_int_equal(counts.vertex_count, counts.face_count + 2);
-    assert_int_equal(mt_subdivide_count(context, cube, pairs, 31, &counts), MT_ERROR_TOO_LARGE);
+    assert_int_equal(mt_subdivide_count(context, cube, pairs, NULL, 31, &counts), MT_ERROR_TOO_LARGE);
     assert_int_equal(counts.face_count, (uint64_t)1 << 62); /* 24 * 4^30 would be more: clamped */
     mt_edge_pairs_destroy(context, pairs);
     mt_mesh_destroy(context, cube);

@@ -73,10 +73,10 @@ typedef struct mt_subdivide_counts {
 } mt_subdivide_counts;
 
 /* The counts of level `level` (0: the mesh itself); MT_ERROR_TOO_LARGE where an index of the mesh could not hold
- * them, with out filled as far as 64 bits go. pairs are the mesh's. O(1), or O(corners) when the mesh has indexed
- * corner attributes, whose seams must be counted. */
-mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs, unsigned level,
-                             mt_subdivide_counts *out);
+ * them, with out filled as far as 64 bits go. pairs are the mesh's; options may be NULL, and their level_count is not
+ * looked at. O(1), or O(corners) with holes or indexed corner attributes, whose seams must be counted. */
+mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
+                             const mt_subdivide_options *options, unsigned level, mt_subdivide_counts *out);
 
 /* Refines. With V, F and C the old vertices, faces and corners:
  *   vertices   the old ones in their order, then face points by face (V + f), then edge points by the first corner of
@@ -88,14 +88,18 @@ mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_
  *   labels, face attributes    inherited from the old face; mesh attributes are copied
  *   vertex attributes    by the vertex rule, like positions; integers of generic meaning are copied: to a face or edge
  *              point from the vertex of its first corner
- *   corner attributes    linearly: midpoints of edges and means of faces; a seam of an indexed one stays a seam, and
- *              its values are numbered as vertices are; one without indices gets them. Corners that have no value
- *              make their face pass none on. Integers of generic meaning are copied from the old corner
- *   normals    by the same rules, then made unit: they are carried, not computed anew, and a warning says so
- *   creases, sharp vertices    as OpenSubdiv 3.5 follows them: an edge or vertex of sharpness s stays sharp for s
- * levels, 10 and more for ever, and blends with the smooth rule when less than 1 is left. Boundary edges are infinitely
- * sharp. What is left of the sharpness is passed on to the halves of the edges Integers are computed as floats over all
- * levels and rounded once. Values are stored in the mesh's precision at each level and computed in double.
+ *   corner attributes    as face_varying says; linearly: midpoints of edges and means of faces. A seam of an indexed
+ *              one stays a seam, and its values are numbered as vertices are; one without indices gets them. With other
+ *              rules than linear ones each vertex gets values of its own first: by vertex, and there by the first
+ * corner around it. Corners that have no value make their face pass none on. Integers of generic meaning are copied
+ * from the old corner normals    by the same rules, then made unit: they are carried, not computed anew, and a warning
+ * says so creases, sharp vertices    as OpenSubdiv 3.5 follows them, in single precision as there: an edge or vertex of
+ *              sharpness s stays sharp for s levels, 10 and more for ever, and blends with the smooth rule when less
+ *              than 1 is left. Boundary edges are infinitely sharp. What is left of the sharpness is passed on to the
+ *              halves of the edges
+ *   holes      take part, and are left out at the end with the attribute that marks them; their vertices stay
+ * Integers are computed as floats over all levels and rounded once. Values are stored in the mesh's precision at each
+ * level and computed in double.
  *
  * The same bytes for any number of threads. Renumbering or turning faces permutes the result and changes no bit of
  * it; mirrored input gives mirrored output. Memory: the result, and while the last level is made about as much again
