@@ -2,8 +2,7 @@
 #ifndef MT_TOPOLOGY_SURGERY_MESH_H
 #define MT_TOPOLOGY_SURGERY_MESH_H
 
-#include <meshtool/edit_log.h>
-#include <meshtool/mesh.h>
+#include "lib/topology/surgery_view.h"
 
 /* The faces in the numbers that surgery works with. */
 typedef struct mt_surgery_shape {
@@ -17,5 +16,9 @@ typedef struct mt_surgery_shape {
  * MT_ERROR_ARGUMENT. O(size + log). */
 mt_status mt_surgery_mesh(mt_context *context, const mt_mesh *source, const mt_edit_log *log,
                           const mt_surgery_shape *shape, mt_mesh **out);
+
+/* The same, of any structure. */
+mt_status mt_surgery_view_mesh(mt_context *context, const mt_mesh *source, const mt_edit_log *log,
+                               const mt_surgery_view *view, mt_mesh **out);
 
 #endif

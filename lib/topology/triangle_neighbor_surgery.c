@@ -1,5 +1,6 @@
 /* The growing copy of triangle neighbours that surgery works on, and its compaction. Cost: amortised O(1) for each new
  * element; O(size) to compact. */
+#include "lib/topology/surgery_mesh.h"
 #include "lib/topology/surgery_room.h"
 #include "lib/topology/triangle_edit.h"
 
@@ -201,4 +202,11 @@ mt_status mt_triangle_surgery_compact(mt_context *context, const mt_triangle_sur
         *map = own;
     }
     return status;
+}
+
+mt_status mt_triangle_surgery_to_mesh(mt_context *context, const mt_triangle_surgery *surgery, const mt_mesh *source,
+                                      mt_mesh **out)
+{
+    mt_surgery_view view = mt_triangle_view(surgery);
+    return mt_surgery_view_mesh(context, source, &surgery->log, &view, out);
 }

@@ -1,4 +1,5 @@
 /* What surgery on winged edges left, without gaps. Cost: O(size). */
+#include "lib/topology/surgery_mesh.h"
 #include "lib/topology/winged_edit.h"
 
 static mt_status number_elements(mt_context *context, const mt_winged_surgery *surgery, mt_surgery_map *map,
@@ -90,4 +91,11 @@ mt_status mt_winged_surgery_compact(mt_context *context, const mt_winged_surgery
     }
     *out = structure;
     return status;
+}
+
+mt_status mt_winged_surgery_to_mesh(mt_context *context, const mt_winged_surgery *surgery, const mt_mesh *source,
+                                    mt_mesh **out)
+{
+    mt_surgery_view view = mt_winged_view(surgery);
+    return mt_surgery_view_mesh(context, source, &surgery->log, &view, out);
 }

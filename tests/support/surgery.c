@@ -94,6 +94,11 @@ static mt_status halfedge_faces(mt_context *context, const void *surgery, mt_sur
     return status;
 }
 
+static mt_status halfedge_to_mesh(mt_context *context, const void *surgery, const mt_mesh *source, mt_mesh **out)
+{
+    return mt_halfedge_surgery_to_mesh(context, surgery, source, out);
+}
+
 static uint64_t halfedge_hash(const void *opaque)
 {
     const mt_halfedge_surgery *surgery = opaque;
@@ -191,6 +196,11 @@ static mt_status winged_faces(mt_context *context, const void *surgery, mt_surge
     mt_mesh_destroy(context, points);
     mt_winged_edge_destroy(context, structure);
     return status;
+}
+
+static mt_status winged_to_mesh(mt_context *context, const void *surgery, const mt_mesh *source, mt_mesh **out)
+{
+    return mt_winged_surgery_to_mesh(context, surgery, source, out);
 }
 
 static uint64_t winged_hash(const void *opaque)
@@ -292,6 +302,11 @@ static mt_status triangle_faces(mt_context *context, const void *surgery, mt_sur
     return status;
 }
 
+static mt_status triangle_to_mesh(mt_context *context, const void *surgery, const mt_mesh *source, mt_mesh **out)
+{
+    return mt_triangle_surgery_to_mesh(context, surgery, source, out);
+}
+
 static uint64_t triangle_hash(const void *opaque)
 {
     const mt_triangle_surgery *surgery = opaque;
@@ -318,10 +333,10 @@ mt_mesh *test_points(mt_context *context, mt_index count)
 
 const test_surgeon test_surgeons[] = {
     {"half-edge", false, halfedge_create, halfedge_destroy, halfedge_judge, halfedge_operate, halfedge_log,
-     halfedge_faces, halfedge_hash},
+     halfedge_faces, halfedge_to_mesh, halfedge_hash},
     {"winged-edge", false, winged_create, winged_destroy, winged_judge, winged_operate, winged_log, winged_faces,
-     winged_hash},
+     winged_to_mesh, winged_hash},
     {"triangle-neighbor", true, triangle_create, triangle_destroy, triangle_judge, triangle_operate, triangle_log,
-     triangle_faces, triangle_hash},
+     triangle_faces, triangle_to_mesh, triangle_hash},
 };
 const size_t test_surgeon_count = sizeof test_surgeons / sizeof *test_surgeons;

@@ -39,6 +39,7 @@ typedef struct test_surgeon {
     const mt_edit_log *(*log)(const void *surgery);
     /* Compacts, validates, and gives the faces back on vertices without positions of their own. */
     mt_status (*faces)(mt_context *context, const void *surgery, mt_surgery_map *map, mt_mesh **out);
+    mt_status (*to_mesh)(mt_context *context, const void *surgery, const mt_mesh *source, mt_mesh **out);
     /* A number that changes when anything in the structure does, to see that failed operations change nothing. */
     uint64_t (*hash)(const void *surgery);
 } test_surgeon;

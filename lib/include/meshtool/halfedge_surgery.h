@@ -64,6 +64,13 @@ mt_status mt_halfedge_add_face(mt_context *context, mt_halfedge_surgery *surgery
 mt_status mt_halfedge_surgery_compact(mt_context *context, const mt_halfedge_surgery *surgery, mt_surgery_map *map,
                                       mt_halfedge_mesh **out);
 
+/* What is left as a mesh, numbered as mt_halfedge_surgery_compact does, with everything that lies on `source`, the mesh
+ * of which the structure was made: positions, attributes, labels, wires, points, creases and sharp vertices, as the log
+ * says (edit_log.h). An added face has no parent: no labels, no indexed values, zero for other values, at its corners
+ * too. MT_ERROR_ARGUMENT when the log was off or the source has other counts. O(size + log). */
+mt_status mt_halfedge_surgery_to_mesh(mt_context *context, const mt_halfedge_surgery *surgery, const mt_mesh *source,
+                                      mt_mesh **out);
+
 #ifdef __cplusplus
 }
 #endif

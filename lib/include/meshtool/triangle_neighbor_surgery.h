@@ -69,6 +69,11 @@ mt_status mt_triangle_add_face(mt_context *context, mt_triangle_surgery *surgery
 mt_status mt_triangle_surgery_compact(mt_context *context, const mt_triangle_surgery *surgery, mt_surgery_map *map,
                                       mt_triangle_neighbor_mesh **out);
 
+/* What is left as a mesh, numbered as mt_triangle_surgery_compact does, with everything that lies on `source`; as
+ * mt_halfedge_surgery_to_mesh. O(size + log). */
+mt_status mt_triangle_surgery_to_mesh(mt_context *context, const mt_triangle_surgery *surgery, const mt_mesh *source,
+                                      mt_mesh **out);
+
 #ifdef __cplusplus
 }
 #endif

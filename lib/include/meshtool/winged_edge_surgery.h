@@ -65,6 +65,11 @@ mt_status mt_winged_add_face(mt_context *context, mt_winged_surgery *surgery, mt
 mt_status mt_winged_surgery_compact(mt_context *context, const mt_winged_surgery *surgery, mt_surgery_map *map,
                                     mt_winged_edge_mesh **out);
 
+/* What is left as a mesh, numbered as mt_winged_surgery_compact does, with everything that lies on `source`; as
+ * mt_halfedge_surgery_to_mesh. O(size + log). */
+mt_status mt_winged_surgery_to_mesh(mt_context *context, const mt_winged_surgery *surgery, const mt_mesh *source,
+                                    mt_mesh **out);
+
 #ifdef __cplusplus
 }
 #endif
