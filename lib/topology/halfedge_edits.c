@@ -57,7 +57,14 @@ mt_status mt_halfedge_swap_edge(mt_context *context, mt_halfedge_surgery *surger
 
 mt_surgery_verdict mt_halfedge_can_split_edge(const mt_halfedge_surgery *surgery, mt_index halfedge)
 {
-    return mt_halfedge_is_alive(surgery, halfedge) ? MT_SURGERY_ALLOWED : MT_SURGERY_NO_ELEMENT;
+    const mt_halfedge_mesh *own = &surgery->structure;
+    if (!mt_halfedge_is_alive(surgery, halfedge)) {
+        return MT_SURGERY_NO_ELEMENT;
+    }
+    bool are_triangles = mt_halfedge_in_triangle(own, halfedge) && mt_halfedge_in_triangle(own, halfedge ^ 1u);
+    mt_index opposite = mt_halfedge_head(own, mt_halfedge_next(own, halfedge));
+    bool lie_back_to_back = are_triangles && mt_halfedge_head(own, mt_halfedge_next(own, halfedge ^ 1u)) == opposite;
+    return lie_back_to_back ? MT_SURGERY_DUPLICATE_FACE : MT_SURGERY_ALLOWED;
 }
 
 /* The edge from a to b becomes that from a to the middle, and a new one, whose half-edge `after` follows h. */

@@ -181,7 +181,7 @@ static void expect_verdicts(const operating_table *at)
     static const unsigned met[TEST_OPERATION_KIND_COUNT] = {
         [TEST_SWAP_EDGE] = 1u << MT_SURGERY_NO_ELEMENT | 1u << MT_SURGERY_BOUNDARY_EDGE |
                            1u << MT_SURGERY_NOT_TRIANGLES | 1u << MT_SURGERY_EDGE_EXISTS,
-        [TEST_SPLIT_EDGE] = 1u << MT_SURGERY_NO_ELEMENT,
+        [TEST_SPLIT_EDGE] = 1u << MT_SURGERY_NO_ELEMENT | 1u << MT_SURGERY_DUPLICATE_FACE,
         [TEST_SPLIT_VERTEX] =
             1u << MT_SURGERY_NO_ELEMENT | 1u << MT_SURGERY_INTERIOR_VERTEX | 1u << MT_SURGERY_DUPLICATE_FACE,
         [TEST_COLLAPSE_EDGE] = 1u << MT_SURGERY_NO_ELEMENT | 1u << MT_SURGERY_LONE_FACE |

@@ -10,7 +10,7 @@
  *   NO_ELEMENT, BOUNDARY_EDGE, NOT_TRIANGLES (L or R), EDGE_EXISTS (c and d are joined or the same).
  * - Split edge from a to b: a new vertex m lies on it, `weight` of the way from a to b. A triangle beside it keeps the
  *   part at a, and a new face takes the part at b: left of a to b first, then right. Other faces gain a side.
- *   NO_ELEMENT.
+ *   NO_ELEMENT; DUPLICATE_FACE (the edge lies between two triangles of the same vertices).
  * - Split vertex v, cut along the edges `from` and `to`: the edges strictly between them, counter-clockwise from `from`
  *   to `to` (crossing the outside, if it lies there), and the faces there pass from v to a new vertex w. The edge from
  * v to x = the other end of `from` opens to a new face (v x w), that to y = the other end of `to` to another, (v w y).
