@@ -2,11 +2,16 @@
 #ifndef MT_TOPOLOGY_HALFEDGE_EDIT_H
 #define MT_TOPOLOGY_HALFEDGE_EDIT_H
 
+#include "lib/topology/surgery_view.h"
+
 #include <meshtool/halfedge_surgery.h>
 
-/* Makes room for the new elements and for `edits` in the log. */
+/* What the predicates read, and the log's entries are made of; it holds until the surgery grows. */
+mt_surgery_view mt_halfedge_view(const mt_halfedge_surgery *surgery);
+
+/* Makes room for new elements. */
 mt_status mt_halfedge_reserve(mt_context *context, mt_halfedge_surgery *surgery, mt_index vertices, mt_index edges,
-                              mt_index faces, uint64_t edits);
+                              mt_index faces);
 
 /* New elements, in room that was made. The edge's first half-edge runs from tail to head; it has no face yet. */
 mt_index mt_halfedge_new_vertex(mt_halfedge_surgery *surgery);
@@ -17,11 +22,6 @@ void mt_halfedge_delete_edge(mt_halfedge_surgery *surgery, mt_index halfedge);
 static inline bool mt_halfedge_is_alive(const mt_halfedge_surgery *surgery, mt_index halfedge)
 {
     return halfedge < surgery->structure.halfedge_count && surgery->structure.halfedges[halfedge].head != MT_NONE;
-}
-
-static inline bool mt_halfedge_vertex_is_alive(const mt_halfedge_surgery *surgery, mt_index vertex)
-{
-    return vertex < surgery->structure.vertex_count && !surgery->vertex_deleted[vertex];
 }
 
 /* Whether there is a face, and it is a triangle. */

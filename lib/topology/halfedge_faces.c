@@ -3,24 +3,6 @@
 #include "lib/topology/edit_entries.h"
 #include "lib/topology/halfedge_edit.h"
 
-mt_surgery_verdict mt_halfedge_can_remove_face(const mt_halfedge_surgery *surgery, mt_index face)
-{
-    const mt_halfedge_mesh *own = &surgery->structure;
-    if (face >= own->face_count || own->face_halfedge[face] == MT_NONE) {
-        return MT_SURGERY_NO_ELEMENT;
-    }
-    mt_index begin = own->face_halfedge[face], in = begin;
-    do {
-        mt_index out = mt_halfedge_next(own, in);
-        if (!mt_halfedge_is_boundary(own, in ^ 1u) && !mt_halfedge_is_boundary(own, out ^ 1u) &&
-            mt_halfedge_vertex_is_boundary(own, mt_halfedge_head(own, in))) {
-            return MT_SURGERY_PINCH;
-        }
-        in = out;
-    } while (in != begin);
-    return MT_SURGERY_ALLOWED;
-}
-
 /* Takes the face out of the fan of the vertex between two of its sides, and links the boundary past it. */
 static void leave_vertex(mt_halfedge_mesh *own, mt_index in, mt_index out)
 {
@@ -66,71 +48,9 @@ mt_status mt_halfedge_remove_face(mt_context *context, mt_halfedge_surgery *surg
     return MT_OK;
 }
 
-static bool has_repeats(const mt_halfedge_surgery *surgery, mt_index count, const mt_index *vertices)
-{
-    bool repeats = false;
-    for (mt_index i = 0; i < count; i++) {
-        repeats = repeats || surgery->marks[vertices[i]];
-        surgery->marks[vertices[i]] = 1;
-    }
-    for (mt_index i = 0; i < count; i++) {
-        surgery->marks[vertices[i]] = 0;
-    }
-    return repeats;
-}
-
-static mt_surgery_verdict judge_vertices(const mt_halfedge_surgery *surgery, mt_index count, const mt_index *vertices)
-{
-    if (count < 3) {
-        return MT_SURGERY_NOT_A_FACE;
-    }
-    for (mt_index i = 0; i < count; i++) {
-        if (!mt_halfedge_vertex_is_alive(surgery, vertices[i])) {
-            return MT_SURGERY_NO_ELEMENT;
-        }
-    }
-    return has_repeats(surgery, count, vertices) ? MT_SURGERY_NOT_A_FACE : MT_SURGERY_ALLOWED;
-}
-
 static mt_index find_side(const mt_halfedge_surgery *surgery, mt_index count, const mt_index *vertices, mt_index i)
 {
     return mt_halfedge_surgery_find(surgery, vertices[i], vertices[i + 1 < count ? i + 1 : 0]);
-}
-
-static mt_index count_sides(const mt_halfedge_mesh *own, mt_index face)
-{
-    mt_index count = 0, h = own->face_halfedge[face];
-    do {
-        count++;
-        h = mt_halfedge_next(own, h);
-    } while (h != own->face_halfedge[face]);
-    return count;
-}
-
-mt_surgery_verdict mt_halfedge_can_add_face(const mt_halfedge_surgery *surgery, mt_index count,
-                                            const mt_index *vertices)
-{
-    const mt_halfedge_mesh *own = &surgery->structure;
-    mt_surgery_verdict verdict = judge_vertices(surgery, count, vertices);
-    if (verdict != MT_SURGERY_ALLOWED) {
-        return verdict;
-    }
-    mt_index before = find_side(surgery, count, vertices, count - 1);
-    mt_index across = before == MT_NONE ? MT_NONE : mt_halfedge_face(own, before ^ 1u);
-    bool is_back = across != MT_NONE, pinches = false;
-    for (mt_index i = 0; i < count; i++) {
-        mt_index side = find_side(surgery, count, vertices, i);
-        if (side != MT_NONE && !mt_halfedge_is_boundary(own, side)) {
-            return MT_SURGERY_EDGE_EXISTS;
-        }
-        pinches = pinches || (side == MT_NONE && before == MT_NONE && own->vertex_halfedge[vertices[i]] != MT_NONE);
-        is_back = is_back && side != MT_NONE && mt_halfedge_face(own, side ^ 1u) == across;
-        before = side;
-    }
-    if (pinches) {
-        return MT_SURGERY_PINCH;
-    }
-    return is_back && count_sides(own, across) == count ? MT_SURGERY_DUPLICATE_FACE : MT_SURGERY_ALLOWED;
 }
 
 /* Puts the face into the fan of the vertex between two of its sides, and links the boundary past it. */
@@ -173,7 +93,7 @@ mt_status mt_halfedge_add_face(mt_context *context, mt_halfedge_surgery *surgery
                                const mt_index *vertices, mt_index *face)
 {
     mt_status status = mt_surgery_expect(context, mt_halfedge_can_add_face(surgery, count, vertices), 0);
-    status = status == MT_OK ? mt_halfedge_reserve(context, surgery, 0, count, 1, 0) : status;
+    status = status == MT_OK ? mt_halfedge_reserve(context, surgery, 0, count, 1) : status;
     if (status != MT_OK) {
         return status;
     }

@@ -1,26 +1,7 @@
 /* Splitting a vertex: the fan is cut along one or two edges, its parts drawn apart, and the gaps filled with triangles,
  * as in Hoppe: Progressive meshes, 1996. Each cut edge stays with the old vertex; the new one gets a copy. Cost:
  * O(valence + sides of the faces beside the cuts). */
-#include "lib/topology/edit_entries.h"
 #include "lib/topology/halfedge_edit.h"
-
-static bool points_to(const mt_halfedge_surgery *surgery, mt_index halfedge, mt_index vertex)
-{
-    return mt_halfedge_is_alive(surgery, halfedge) && mt_halfedge_head(&surgery->structure, halfedge) == vertex;
-}
-
-mt_surgery_verdict mt_halfedge_can_split_vertex(const mt_halfedge_surgery *surgery, mt_index vertex, mt_index from,
-                                                mt_index to)
-{
-    if (!mt_halfedge_vertex_is_alive(surgery, vertex) || (from == MT_NONE && to == MT_NONE) ||
-        (from != MT_NONE && !points_to(surgery, from, vertex)) || (to != MT_NONE && !points_to(surgery, to, vertex))) {
-        return MT_SURGERY_NO_ELEMENT;
-    }
-    if ((from == MT_NONE || to == MT_NONE) && !mt_halfedge_vertex_is_boundary(&surgery->structure, vertex)) {
-        return MT_SURGERY_INTERIOR_VERTEX;
-    }
-    return from == to ? MT_SURGERY_DUPLICATE_FACE : MT_SURGERY_ALLOWED;
-}
 
 /* The half-edges that pass to the new vertex come clockwise from `begin` on, before `end`. */
 typedef struct vertex_cut {
@@ -45,21 +26,12 @@ static vertex_cut find_cut(const mt_halfedge_mesh *own, mt_index vertex, mt_inde
     return cut;
 }
 
-static void move_fan(mt_halfedge_surgery *surgery, const vertex_cut *cut, mt_index v, mt_index w)
+static void move_fan(mt_halfedge_mesh *own, const vertex_cut *cut, mt_index w)
 {
-    mt_halfedge_mesh *own = &surgery->structure;
-    mt_edit_split_vertex(&surgery->log, v, w);
     for (mt_index h = cut->begin; h != cut->end;) {
         mt_index following = mt_halfedge_clockwise(own, h);
         own->halfedges[h].head = w;
-        mt_edit_move_edge(&surgery->log, v, w, own->halfedges[h ^ 1u].head);
-        if (own->halfedges[h].face != MT_NONE) {
-            mt_edit_move_corner(&surgery->log, own->halfedges[h].face, v, w);
-        }
         h = following;
-    }
-    if (cut->to != MT_NONE && own->halfedges[cut->to].face != MT_NONE) {
-        mt_edit_move_corner(&surgery->log, own->halfedges[cut->to].face, v, w);
     }
 }
 
@@ -96,38 +68,29 @@ static mt_index copy_to(mt_halfedge_surgery *surgery, const vertex_cut *cut, mt_
     return copy;
 }
 
-/* The gap that opens at one cut: its three sides, the faces on either side of the edge, w's first, and its far end. */
-typedef struct gap {
-    mt_index sides[3], parents[2], end;
-} gap;
-
-static void fill_gap(mt_halfedge_surgery *surgery, const gap *at, mt_index v, mt_index w)
+static void add_triangle(mt_halfedge_surgery *surgery, mt_index a, mt_index b, mt_index c)
 {
     mt_halfedge_mesh *own = &surgery->structure;
-    for (int i = 0; i < 3; i++) {
-        own->halfedges[at->sides[i]].next = at->sides[(i + 1) % 3];
-    }
-    mt_index face = mt_halfedge_new_face(surgery, at->sides[0]);
-    mt_index parent = at->parents[at->parents[0] == MT_NONE];
-    mt_edit_open_edge(&surgery->log, face, parent, v, w, at->end);
+    own->halfedges[a].next = b;
+    own->halfedges[b].next = c;
+    own->halfedges[c].next = a;
+    mt_halfedge_new_face(surgery, a);
 }
 
-/* Joins v and w; where a cut is missing, the outside passes along the new edge. */
-static void join(mt_halfedge_surgery *surgery, const vertex_cut *cut, mt_index v, mt_index w, gap gaps[2])
+/* Joins v and w by triangles on the copied edges; where a cut is missing, the outside passes along the new edge. */
+static void join(mt_halfedge_surgery *surgery, const vertex_cut *cut, const mt_index copies[2], mt_index v, mt_index w)
 {
     mt_halfedge_mesh *own = &surgery->structure;
     mt_index edge = mt_halfedge_new_edge(surgery, w, v), back = edge ^ 1u;
     if (cut->from != MT_NONE) {
-        gaps[0].sides[2] = edge;
-        fill_gap(surgery, &gaps[0], v, w);
+        add_triangle(surgery, cut->from ^ 1u, copies[0] ^ 1u, edge);
     } else {
-        mt_index into = cut->to == cut->boundary ? gaps[1].sides[1] ^ 1u : cut->boundary;
+        mt_index into = cut->to == cut->boundary ? copies[1] : cut->boundary;
         own->halfedges[edge].next = own->halfedges[into].next;
         own->halfedges[into].next = edge;
     }
     if (cut->to != MT_NONE) {
-        gaps[1].sides[0] = back;
-        fill_gap(surgery, &gaps[1], v, w);
+        add_triangle(surgery, back, copies[1] ^ 1u, cut->to);
     } else {
         own->halfedges[back].next = own->halfedges[cut->boundary].next;
         own->halfedges[cut->boundary].next = back;
@@ -136,51 +99,29 @@ static void join(mt_halfedge_surgery *surgery, const vertex_cut *cut, mt_index v
     mt_halfedge_anchor(own, back);
 }
 
-/* Moves the fan and copies the cut edges; what is left between v and w are the gaps. */
-static void open_fan(mt_halfedge_surgery *surgery, const vertex_cut *cut, mt_index v, mt_index w, gap gaps[2])
-{
-    const mt_halfedge_mesh *own = &surgery->structure;
-    mt_index from = cut->from, to = cut->to;
-    if (from != MT_NONE) {
-        gaps[0] = (gap){{from ^ 1u, MT_NONE, MT_NONE},
-                        {mt_halfedge_face(own, from ^ 1u), mt_halfedge_face(own, from)},
-                        mt_halfedge_tail(own, from)};
-    }
-    if (to != MT_NONE) {
-        gaps[1] = (gap){{MT_NONE, MT_NONE, to},
-                        {mt_halfedge_face(own, to), mt_halfedge_face(own, to ^ 1u)},
-                        mt_halfedge_tail(own, to)};
-    }
-    move_fan(surgery, cut, v, w);
-    if (from != MT_NONE) {
-        gaps[0].sides[1] = copy_from(surgery, cut, w) ^ 1u;
-    }
-    if (to != MT_NONE) {
-        gaps[1].sides[1] = copy_to(surgery, cut, w) ^ 1u;
-    }
-}
-
 mt_status mt_halfedge_split_vertex(mt_context *context, mt_halfedge_surgery *surgery, mt_index vertex, mt_index from,
                                    mt_index to, mt_index *out)
 {
     mt_halfedge_mesh *own = &surgery->structure;
-    mt_status status = mt_surgery_expect(context, mt_halfedge_can_split_vertex(surgery, vertex, from, to), 0);
-    if (status != MT_OK) {
-        return status;
-    }
-    uint64_t edits = MT_EDIT_SPLIT_VERTEX_COUNT + 2 * MT_EDIT_OPEN_EDGE_COUNT + MT_EDIT_MOVE_CORNER_COUNT +
-                     mt_halfedge_valence(own, vertex) * (uint64_t)(MT_EDIT_MOVE_EDGE_COUNT + MT_EDIT_MOVE_CORNER_COUNT);
-    status = mt_halfedge_reserve(context, surgery, 1, 3, 2, edits);
+    mt_status status = mt_halfedge_reserve(context, surgery, 1, 3, 2);
+    mt_surgery_view view = mt_halfedge_view(surgery);
+    view.log = &surgery->log;
+    status = status == MT_OK ? mt_surgery_enter_split_vertex(context, &view, vertex, from, to) : status;
     if (status != MT_OK) {
         return status;
     }
     vertex_cut cut = find_cut(own, vertex, from, to);
-    gap gaps[2] = {0};
-    mt_index w = mt_halfedge_new_vertex(surgery);
-    open_fan(surgery, &cut, vertex, w, gaps);
-    join(surgery, &cut, vertex, w, gaps);
+    mt_index added = mt_halfedge_new_vertex(surgery), copies[2] = {MT_NONE, MT_NONE};
+    move_fan(own, &cut, added);
+    if (from != MT_NONE) {
+        copies[0] = copy_from(surgery, &cut, added);
+    }
+    if (to != MT_NONE) {
+        copies[1] = copy_to(surgery, &cut, added);
+    }
+    join(surgery, &cut, copies, vertex, added);
     if (out) {
-        *out = w;
+        *out = added;
     }
     return MT_OK;
 }

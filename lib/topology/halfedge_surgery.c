@@ -1,5 +1,6 @@
 /* The growing copy that surgery works on. Cost: amortised O(1) for each new element. */
 #include "lib/topology/halfedge_edit.h"
+#include "lib/topology/surgery_room.h"
 
 #include <string.h>
 
@@ -16,59 +17,40 @@ void mt_halfedge_surgery_destroy(mt_context *context, mt_halfedge_surgery *surge
     }
 }
 
-static bool grow(mt_context *context, void **block, uint64_t capacity, size_t size)
+static mt_status make_vertex_room(mt_context *context, mt_halfedge_surgery *surgery, uint64_t needed)
 {
-    void *grown = mt_reallocate(context, *block, capacity * size);
-    *block = grown ? grown : *block;
-    return grown != NULL;
+    mt_surgery_block blocks[3] = {
+        {surgery->structure.vertex_halfedge, sizeof(mt_index)}, {surgery->vertex_deleted, 1}, {surgery->marks, 1}};
+    mt_status status = mt_surgery_make_room(context, needed, &surgery->vertex_capacity, blocks, 3);
+    surgery->structure.vertex_halfedge = blocks[0].block;
+    surgery->vertex_deleted = blocks[1].block;
+    surgery->marks = blocks[2].block;
+    return status;
 }
 
-static uint64_t wider(uint64_t capacity, uint64_t needed)
+static mt_status make_room(mt_context *context, mt_halfedge_surgery *surgery, uint64_t vertices, uint64_t halfedges,
+                           uint64_t faces)
 {
-    return needed <= capacity ? capacity : needed + needed / 2;
-}
-
-static mt_status reserve(mt_context *context, mt_halfedge_surgery *surgery, uint64_t vertices, uint64_t halfedges,
-                         uint64_t faces)
-{
-    if (vertices > MT_INDEX_MAX || halfedges > MT_INDEX_MAX || faces > MT_INDEX_MAX) {
-        return mt_fail(context, MT_ERROR_TOO_LARGE, "surgery makes more elements than an index can number");
+    mt_surgery_block halfedge_block = {surgery->structure.halfedges, sizeof *surgery->structure.halfedges};
+    mt_surgery_block face_block = {surgery->structure.face_halfedge, sizeof(mt_index)};
+    mt_status status = make_vertex_room(context, surgery, vertices);
+    if (status == MT_OK) {
+        status = mt_surgery_make_room(context, halfedges, &surgery->halfedge_capacity, &halfedge_block, 1);
+        surgery->structure.halfedges = halfedge_block.block;
     }
-    mt_halfedge_mesh *structure = &surgery->structure;
-    uint64_t vertex_room = wider(surgery->vertex_capacity, vertices);
-    uint64_t halfedge_room = wider(surgery->halfedge_capacity, halfedges);
-    uint64_t face_room = wider(surgery->face_capacity, faces);
-    void *grown[] = {structure->vertex_halfedge, surgery->vertex_deleted, surgery->marks, structure->halfedges,
-                     structure->face_halfedge};
-    bool fits = true;
-    if (vertex_room > surgery->vertex_capacity) {
-        fits = grow(context, &grown[0], vertex_room, sizeof(mt_index)) && grow(context, &grown[1], vertex_room, 1) &&
-               grow(context, &grown[2], vertex_room, 1);
+    if (status == MT_OK) {
+        status = mt_surgery_make_room(context, faces, &surgery->face_capacity, &face_block, 1);
+        surgery->structure.face_halfedge = face_block.block;
     }
-    fits = fits && (halfedge_room == surgery->halfedge_capacity ||
-                    grow(context, &grown[3], halfedge_room, sizeof *structure->halfedges));
-    fits = fits && (face_room == surgery->face_capacity || grow(context, &grown[4], face_room, sizeof(mt_index)));
-    structure->vertex_halfedge = grown[0];
-    surgery->vertex_deleted = grown[1];
-    surgery->marks = grown[2];
-    structure->halfedges = grown[3];
-    structure->face_halfedge = grown[4];
-    if (!fits) {
-        return mt_context_error(context)->status;
-    }
-    surgery->vertex_capacity = vertex_room;
-    surgery->halfedge_capacity = halfedge_room;
-    surgery->face_capacity = face_room;
-    return MT_OK;
+    return status;
 }
 
 mt_status mt_halfedge_reserve(mt_context *context, mt_halfedge_surgery *surgery, mt_index vertices, mt_index edges,
-                              mt_index faces, uint64_t edits)
+                              mt_index faces)
 {
     const mt_halfedge_mesh *own = &surgery->structure;
-    mt_status status = reserve(context, surgery, (uint64_t)own->vertex_count + vertices,
-                               (uint64_t)own->halfedge_count + 2 * (uint64_t)edges, (uint64_t)own->face_count + faces);
-    return status == MT_OK ? mt_edit_log_reserve(context, &surgery->log, edits) : status;
+    return make_room(context, surgery, (uint64_t)own->vertex_count + vertices,
+                     (uint64_t)own->halfedge_count + 2 * (uint64_t)edges, (uint64_t)own->face_count + faces);
 }
 
 mt_status mt_halfedge_surgery_create(mt_context *context, const mt_halfedge_mesh *structure, mt_halfedge_surgery **out)
@@ -79,8 +61,8 @@ mt_status mt_halfedge_surgery_create(mt_context *context, const mt_halfedge_mesh
         return MT_ERROR_OUT_OF_MEMORY;
     }
     mt_halfedge_mesh *own = &surgery->structure;
-    mt_status status = reserve(context, surgery, (uint64_t)structure->vertex_count + 1,
-                               (uint64_t)structure->halfedge_count + 2, (uint64_t)structure->face_count + 1);
+    mt_status status = make_room(context, surgery, (uint64_t)structure->vertex_count + 1,
+                                 (uint64_t)structure->halfedge_count + 2, (uint64_t)structure->face_count + 1);
     if (status != MT_OK) {
         mt_halfedge_surgery_destroy(context, surgery);
         return status;
@@ -134,20 +116,6 @@ void mt_halfedge_delete_edge(mt_halfedge_surgery *surgery, mt_index halfedge)
     const mt_halfedge nothing = {MT_NONE, MT_NONE, MT_NONE};
     surgery->structure.halfedges[halfedge] = nothing;
     surgery->structure.halfedges[halfedge ^ 1u] = nothing;
-}
-
-mt_index mt_halfedge_surgery_find(const mt_halfedge_surgery *surgery, mt_index tail, mt_index head)
-{
-    const mt_halfedge_mesh *own = &surgery->structure;
-    if (tail >= own->vertex_count || head >= own->vertex_count) {
-        return MT_NONE;
-    }
-    mt_index begin = own->vertex_halfedge[head], h = begin;
-    while (h != MT_NONE && mt_halfedge_tail(own, h) != tail) {
-        h = mt_halfedge_clockwise(own, h);
-        h = h == begin ? MT_NONE : h;
-    }
-    return h;
 }
 
 void mt_halfedge_anchor(mt_halfedge_mesh *structure, mt_index halfedge)
