@@ -1,4 +1,4 @@
-/* What surgery left, without gaps: as a structure, or as faces from which a mesh is made. */
+/* What surgery on half-edges left, without gaps. Cost: O(size), and O(log) for a mesh. */
 #include "lib/topology/halfedge_edit.h"
 #include "lib/topology/surgery_mesh.h"
 
@@ -84,43 +84,9 @@ mt_status mt_halfedge_surgery_compact(mt_context *context, const mt_halfedge_sur
     return status;
 }
 
-/* The corners of living faces, one after the other; room NULL: only counts them. */
-static mt_index list_corners(const mt_halfedge_mesh *own, mt_index *offsets, mt_index *room)
-{
-    mt_index count = 0;
-    for (mt_index face = 0; face < own->face_count; face++) {
-        mt_index begin = own->face_halfedge[face], h = begin;
-        offsets[face] = count;
-        while (h != MT_NONE) {
-            if (room) {
-                room[count] = mt_halfedge_tail(own, h);
-            }
-            count++;
-            h = mt_halfedge_next(own, h);
-            h = h == begin ? MT_NONE : h;
-        }
-    }
-    offsets[own->face_count] = count;
-    return count;
-}
-
 mt_status mt_halfedge_surgery_to_mesh(mt_context *context, const mt_halfedge_surgery *surgery, const mt_mesh *source,
                                       mt_mesh **out)
 {
-    *out = NULL;
-    const mt_halfedge_mesh *own = &surgery->structure;
-    mt_surgery_shape shape = {own->vertex_count, own->face_count, surgery->vertex_deleted, NULL, NULL};
-    shape.face_offsets = mt_allocate_array(context, (uint64_t)own->face_count + 1, sizeof(mt_index));
-    if (shape.face_offsets) {
-        mt_index count = list_corners(own, shape.face_offsets, NULL);
-        shape.corner_vertices = mt_allocate_array(context, count, sizeof(mt_index));
-    }
-    mt_status status = MT_ERROR_OUT_OF_MEMORY;
-    if (shape.corner_vertices) {
-        list_corners(own, shape.face_offsets, shape.corner_vertices);
-        status = mt_surgery_mesh(context, source, &surgery->log, &shape, out);
-    }
-    mt_free(context, shape.face_offsets);
-    mt_free(context, shape.corner_vertices);
-    return status;
+    mt_surgery_view view = mt_halfedge_view(surgery);
+    return mt_surgery_view_mesh(context, source, &surgery->log, &view, out);
 }
