@@ -98,6 +98,12 @@ static bool marks_vertex(mt_defect_kind kind)
            kind == MT_DEFECT_ISOLATED_VERTEX;
 }
 
+/* Faces that cover no pixel: their vertices are marked instead. */
+static bool marks_corners(mt_defect_kind kind)
+{
+    return kind == MT_DEFECT_ZERO_AREA_FACE || kind == MT_DEFECT_DEGENERATE_FACE;
+}
+
 /* A hole's rim is no fault of the faces beside it. A picture shows by its lines where the orientation changes, and by
  * its light on which side it does; a mesh has its faces' colors alone. */
 static bool paints_faces(mt_defect_kind kind, bool for_picture)
@@ -129,8 +135,9 @@ static void paint_defect(const mt_mesh *mesh, const mt_defect *defect, bool for_
         memcpy(paint->edge_colors + 3 * paint->edge_count, color, 3);
         memcpy(paint->edges + 2 * paint->edge_count++, defect->vertices, 2 * sizeof *paint->edges);
     }
-    if (marks_vertex(defect->kind)) {
-        paint->marked_vertices[defect->vertices[0]] = 1;
+    mt_index mark_count = marks_vertex(defect->kind) ? 1 : marks_corners(defect->kind) ? defect->vertex_count : 0;
+    for (mt_index i = 0; i < mark_count; i++) {
+        paint->marked_vertices[defect->vertices[i]] = 1;
     }
 }
 

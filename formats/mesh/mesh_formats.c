@@ -86,8 +86,9 @@ static mt_status finish_reading(mt_context *context, const mt_input *input, cons
                                 mt_mesh *mesh)
 {
     if (!all_finite(mesh)) {
-        mt_warn(context, "%s: %lu vertices have a coordinate that is not finite (nan or inf)", mt_input_name(input),
-                (unsigned long)mt_mesh_bounds(mesh).non_finite_count);
+        unsigned long count = mt_mesh_bounds(mesh).non_finite_count;
+        mt_warn(context, "%s: %lu %s a coordinate that is not finite (nan or inf)", mt_input_name(input), count,
+                count == 1 ? "vertex has" : "vertices have");
     }
     if (options->precision == MT_PRECISION_AUTO) {
         return MT_OK;
