@@ -160,6 +160,37 @@ static bool is_acceptable(const hole *job, const mt_index *triangles)
     return true;
 }
 
+static int turn_of(mt_vec3 a, mt_vec3 b, mt_vec3 c, int dropped_axis)
+{
+    double p[3][2];
+    const mt_vec3 corners[3] = {a, b, c};
+    for (int i = 0; i < 3; i++) {
+        p[i][0] = dropped_axis == 0 ? corners[i].y : corners[i].x;
+        p[i][1] = dropped_axis == 2 ? corners[i].y : corners[i].z;
+    }
+    return mt_orient2d(p[0], p[1], p[2]);
+}
+
+/* Whether all triangles of a planar loop turn the same way, so that none overlaps another and no triangulation has less
+ * area. Those of a loop that crosses itself cannot. */
+static bool is_without_folds(const hole *job, const mt_vec3 base[3], const mt_index *triangles)
+{
+    int axis = 0;
+    while (axis < 2 && turn_of(base[0], base[1], base[2], axis) == 0) {
+        axis++;
+    }
+    int first = 0;
+    for (size_t t = 0; t + 2 < job->count; t++) {
+        const mt_index *corner = triangles + 3 * t;
+        int turn = turn_of(point(job, corner[0]), point(job, corner[1]), point(job, corner[2]), axis);
+        first = t == 0 ? turn : first;
+        if (turn == 0 || turn != first) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static mt_status fill_polygon(const hole *job, mt_index *triangles, bool *filled)
 {
     mt_index offsets[2] = {0, job->count};
@@ -193,10 +224,13 @@ mt_status mt_triangulate_hole(mt_context *context, const mt_mesh *mesh, const mt
     if (!find_base(&job, base)) {
         return MT_OK;
     }
-    bool planar = is_planar(&job, base);
-    if (planar || count > HOLE_LEAST_AREA_MAXIMUM) {
+    if (count > HOLE_LEAST_AREA_MAXIMUM) {
+        return fill_polygon(&job, triangles, filled);
+    }
+    if (is_planar(&job, base)) {
         mt_status status = fill_polygon(&job, triangles, filled);
-        if (status != MT_OK || *filled || count > HOLE_LEAST_AREA_MAXIMUM) {
+        *filled = status == MT_OK && *filled && is_without_folds(&job, base, triangles);
+        if (status != MT_OK || *filled) {
             return status;
         }
     }

@@ -313,7 +313,15 @@ bool fill(const mt_mesh *mesh, double *area, std::size_t *faces)
             return false;
         }
     }
-    return !cycles.empty();
+    // Its triangles may take edges that faces have already, which ours must not.
+    Polygons filled;
+    for (auto face : surface.faces()) {
+        filled.emplace_back();
+        for (auto vertex : surface.vertices_around_face(surface.halfedge(face))) {
+            filled.back().push_back(vertex);
+        }
+    }
+    return !cycles.empty() && PMP::is_polygon_soup_a_polygon_mesh(filled);
 }
 
 void compare_fill(const mt_mesh *given, const std::string &name)
@@ -466,7 +474,7 @@ void compare_random()
         double factor, offset;
     } changes[] = {{1, 0}, {1, 0}, {1, 1e7}, {1e-30, 0}, {1e30, 0}};
     std::mt19937 random(1895);
-    for (int i = 0; i < 4000; i++) {
+    for (int i = 0; i < 3000; i++) {
         mt_mesh *mesh = i % 4 ? random_soup(random) : random_patch(random);
         const auto &how = changes[i % 5];
         change(mesh, how.factor, how.offset);
