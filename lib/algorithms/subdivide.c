@@ -10,6 +10,7 @@
 #include "lib/algorithms/subdivide_count.h"
 #include "lib/algorithms/subdivide_crease.h"
 #include "lib/algorithms/subdivide_level.h"
+#include "lib/algorithms/subdivide_limit.h"
 #include "lib/algorithms/subdivide_rings.h"
 #include "lib/algorithms/subdivide_settings.h"
 #include "lib/algorithms/subdivide_trim.h"
@@ -173,8 +174,11 @@ static mt_status finish_result(mt_context *context, mt_subdivide_state *state, u
     return mt_subdivide_creases_finish(context, state, level_count, result);
 }
 
-static void warn_of_limits(mt_context *context, const mt_mesh *mesh)
+static void warn_of_normals(mt_context *context, const mt_mesh *mesh, bool limit)
 {
+    if (limit) {
+        return;
+    }
     if (mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX) ||
         mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_CORNER)) {
         mt_warn(context, "normals were interpolated from the coarse mesh's, and are not quite those of the "
@@ -182,10 +186,54 @@ static void warn_of_limits(mt_context *context, const mt_mesh *mesh)
     }
 }
 
+static mt_status move_to_limit(mt_context *context, mt_subdivide_state *state, mt_mesh *result)
+{
+    int part = mt_part_begin(context, "limit", "asked for");
+    mt_status status = mt_subdivide_to_limit(context, state, result);
+    mt_part_end(context, part);
+    return status;
+}
+
+/* A copy of the mesh, all of whose faces must be quads: then the limit's masks hold. */
+static mt_status copy_quads(mt_context *context, const mt_subdivide_state *state, mt_mesh **result)
+{
+    const mt_mesh *mesh = state->mesh;
+    if (state->topologies[0].face_size == 4 || mesh->face_count == 0) {
+        return mt_mesh_copy(context, mesh, result);
+    }
+    mt_index face = 0;
+    while (face + 1 < mesh->face_count && mt_mesh_face_end(mesh, face) - mt_mesh_face_begin(mesh, face) == 4) {
+        face++;
+    }
+    return mt_fail(context, MT_ERROR_INVALID_MESH,
+                   "face %u has %u sides, and the limit of level 0 is known for quads alone: ask for a level or more",
+                   face, mt_mesh_face_end(mesh, face) - mt_mesh_face_begin(mesh, face));
+}
+
+/* All levels, and the limit where it is asked for. */
+static mt_status make_result(mt_context *context, mt_subdivide_state *state, unsigned level_count, mt_mesh **result)
+{
+    if (level_count == 0) {
+        mt_status status = copy_quads(context, state, result);
+        return status == MT_OK ? move_to_limit(context, state, *result) : status;
+    }
+    mt_status status = refine_levels(context, state, level_count, result);
+    if (status == MT_OK) {
+        status = finish_result(context, state, level_count, *result);
+    }
+    if (status == MT_OK && state->settings.limit) {
+        status = move_to_limit(context, state, *result);
+    }
+    if (status == MT_OK && state->holes) {
+        status = mt_subdivide_trim(context, state->mesh, state->holes, level_count, result);
+    }
+    return status;
+}
+
 static mt_status subdivide_paired(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
                                   const mt_subdivide_options *settings, mt_mesh **out)
 {
-    unsigned level_count = settings->level_count;
+    unsigned level_count = settings->no_levels ? 0 : settings->level_count;
     mt_status status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
     if (status != MT_OK) {
         return status;
@@ -194,13 +242,7 @@ static mt_status subdivide_paired(mt_context *context, const mt_mesh *mesh, cons
     mt_mesh *result = NULL;
     status = begin_state(context, pairs, level_count, &state);
     if (status == MT_OK) {
-        status = refine_levels(context, &state, level_count, &result);
-    }
-    if (status == MT_OK) {
-        status = finish_result(context, &state, level_count, result);
-    }
-    if (status == MT_OK && state.holes) {
-        status = mt_subdivide_trim(context, mesh, state.holes, level_count, &result);
+        status = make_result(context, &state, level_count, &result);
     }
     if (status == MT_OK) {
         status = mt_progress(context, TASK, 1);
@@ -210,7 +252,7 @@ static mt_status subdivide_paired(mt_context *context, const mt_mesh *mesh, cons
         mt_mesh_destroy(context, result);
         return status;
     }
-    warn_of_limits(context, mesh);
+    warn_of_normals(context, mesh, settings->limit);
     *out = result;
     return MT_OK;
 }
@@ -227,12 +269,12 @@ mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdiv
 {
     mt_subdivide_options settings;
     *out = NULL;
-    if (options && options->no_levels) {
+    if (options && options->no_levels && !options->limit) {
         return mt_mesh_copy(context, mesh, out);
     }
     mt_status status = mt_subdivide_settle(context, mesh, options, &settings);
     if (status == MT_OK) {
-        status = check_corners(context, mesh, settings.level_count);
+        status = check_corners(context, mesh, settings.no_levels ? 0 : settings.level_count);
     }
     if (status != MT_OK) {
         return status;

@@ -120,6 +120,7 @@ mt_status mt_subdivide_find_vertex_corners(mt_context *context, mt_subdivide_top
     }
     topology->owned[3] = corners;
     topology->vertex_corners = corners;
+    topology->vertex_corner_shift = 0;
     topology->vertex_corner_count = topology->vertex_count;
     for (mt_index vertex = 0; vertex < topology->vertex_count; vertex++) {
         corners[vertex] = MT_NONE;

@@ -158,7 +158,8 @@ static mt_status plan_topology(mt_context *context, const mt_subdivide_state *st
     if (!corners) {
         return mt_context_error(context)->status;
     }
-    mt_status status = mt_subdivide_topology_plan(context, topology, corners, result != NULL, child, &plan->second);
+    bool last = result && !(state->settings.limit && number == 0);
+    mt_status status = mt_subdivide_topology_plan(context, topology, corners, last, child, &plan->second);
     if (!result) {
         child->owned[3] = corners;
     }

@@ -147,13 +147,17 @@ mt_status mt_subdivide_to_limit(mt_context *context, mt_subdivide_state *state, 
 {
     mt_subdivide_topology *topology = &state->topologies[0];
     mt_subdivide_patches patches = {0};
-    limit_job job = {.positions = NULL};
+    limit_job job = {.rings = {.topology = topology,
+                               .mesh = result,
+                               .sharp = &state->sharp,
+                               .irregular_count = topology->vertex_corner_count}};
     mt_status status = mt_subdivide_sharp_plan(context, topology, &state->sharp, &patches);
     if (status == MT_OK && topology->level) {
         status = mt_subdivide_find_vertex_corners(context, topology);
     }
     if (status == MT_OK) {
-        status = mt_limit_rings_create(context, topology, result, &state->sharp, patches.halves, &job.rings);
+        job.rings.halves = patches.halves;
+        status = mt_limit_rings_create(context, &job.rings);
     }
     if (status == MT_OK) {
         status = move_to_limit(context, &job, result);

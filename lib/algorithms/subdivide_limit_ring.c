@@ -3,6 +3,11 @@
  * With n faces around a smooth vertex P, E and F the ends and diagonals, the limit is (n^2 P + 4 sum E + sum F) /
  * (n (n + 5)), and the tangents are the sums of a cos(2 pi i / n) E_i + (cos(2 pi i / n) + cos(2 pi (i + 1) / n)) F_i
  * and the same with sines, a = 1 + cos(2 pi / n) + cos(pi / n) sqrt(2 (9 + cos(2 pi / n))).
+ *
+ * Across a crease with k faces on this side, with the angle pi / k in the place of 2 pi / n, the sines weigh what lies
+ * between, and the crease's own ends have the weight that makes of it a left eigenvector of the subdivision matrix.
+ * The mask of Biermann et al., which OpenSubdiv takes, is none for 1, 3 and more faces: it belongs to their modified
+ * rules. Beyond 4 faces Catmull-Clark's own crease has no tangent plane, but this and the tangent along it.
  * Known failure: differences beyond the largest double are infinite, and the normal is then (0, 0, 1). */
 #include "lib/algorithms/subdivide_limit_ring.h"
 
@@ -99,6 +104,11 @@ void mt_limit_smooth_tangents(const mt_limit_ring *ring, mt_index first, mt_vec3
         regular_tangents(ring, first, along, across);
         return;
     }
+    if (ring->face_count == 2) { /* the formula's weights vanish, and these have the same eigenvalue */
+        *along = mt_vec3_subtract(ring->ends[first], ring->ends[first ^ 1]);
+        *across = mt_vec3_subtract(ring->diagonals[first], ring->diagonals[first ^ 1]);
+        return;
+    }
     double turn = 2 * MT_PI / ring->face_count;
     double cosine = mt_cos(turn);
     double weight = 1 + cosine + mt_cos(turn / 2) * sqrt(2 * (9 + cosine));
@@ -135,13 +145,14 @@ static mt_vec3 tangent_across(const mt_limit_ring *ring, mt_limit_sector sector)
 {
     double angle = MT_PI / sector.face_count;
     double cosine = mt_cos(angle), sine = mt_sin(angle);
-    double border = -(cosine + 1) / sine * (1 + 2 * cosine);
+    double weight = 1 + cosine + mt_cos(angle / 2) * sqrt(2 * (9 + cosine));
+    double border = (sine * (weight + 4) - 2 * (1 + cosine) / sine * (weight + 2)) / weight;
     vector_sum sum = {{0, 0}, {0, 0}, {0, 0}};
     double s = 0, next_s = sine;
     mt_index spoke = sector.first;
     add(&sum, mt_vec3_scale(ring->ends[spoke], border));
     for (mt_index i = 0; i < sector.face_count; i++) {
-        add(&sum, mt_vec3_scale(ring->ends[spoke], 4 * s));
+        add(&sum, mt_vec3_scale(ring->ends[spoke], weight * s));
         add(&sum, mt_vec3_scale(ring->diagonals[spoke], s + next_s));
         spoke = mt_limit_next_spoke(ring, spoke);
         s = next_s;

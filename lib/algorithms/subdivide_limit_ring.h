@@ -2,7 +2,7 @@
  *
  * Sources: Halstead, Kass and DeRose, "Efficient, Fair Interpolation using Catmull-Clark Surfaces", SIGGRAPH 1993
  * (the masks of smooth vertices); Biermann, Levin and Zorin, "Piecewise Smooth Subdivision Surfaces with Normal
- * Control", SIGGRAPH 2000 (those of creases and boundaries). */
+ * Control", SIGGRAPH 2000 (how those of creases and boundaries are found). */
 #ifndef LIB_ALGORITHMS_SUBDIVIDE_LIMIT_RING_H
 #define LIB_ALGORITHMS_SUBDIVIDE_LIMIT_RING_H
 
@@ -42,7 +42,8 @@ typedef struct mt_limit_sector {
 mt_vec3 mt_limit_position(const mt_limit_ring *ring, mt_subdivide_vertex_rule rule, mt_index a, mt_index b);
 
 /* The unit normal there, of a sector. Exact for smooth vertices and creases, and at corners of one face; a corner of
- * more has no tangent plane, and gets the mean of its faces' weighted by area. (0, 0, 1) where nothing defines one. Not of darts. */
+ * more has no tangent plane, and gets the mean of its faces' weighted by area. (0, 0, 1) where nothing defines one. Not
+ * of darts. */
 mt_vec3 mt_limit_normal(const mt_limit_ring *ring, mt_subdivide_vertex_rule rule, mt_limit_sector sector);
 
 /* The tangents of a smooth vertex towards spoke `first` and a quarter turn on, up to factors. */

@@ -1,4 +1,4 @@
-/* Cost: O(corners) to find the large rings, which only vertices of level 0 can have. */
+/* Cost: O(corners of the vertices that may be irregular) to find the large rings, then that of each ring. */
 #include "lib/algorithms/subdivide_limit_rings.h"
 
 static mt_index next(const mt_subdivide_topology *topology, mt_index corner)
@@ -24,10 +24,11 @@ static mt_index ring_size(const mt_subdivide_topology *topology, mt_index start)
 }
 
 /* Finds the large rings; returns the size of the largest. */
-static mt_index find_large(const mt_subdivide_topology *topology, mt_index *large, mt_index *large_count)
+static mt_index find_large(const mt_limit_rings *rings, mt_index *large, mt_index *large_count)
 {
+    const mt_subdivide_topology *topology = rings->topology;
     mt_index largest = MT_LIMIT_SMALL_RING;
-    for (mt_index vertex = 0; vertex < topology->vertex_count; vertex++) {
+    for (mt_index vertex = 0; vertex < rings->irregular_count; vertex++) {
         mt_index start = topology->vertex_corners[vertex];
         mt_index size = start == MT_NONE ? 0 : ring_size(topology, start);
         if (size > MT_LIMIT_SMALL_RING) {
@@ -49,8 +50,8 @@ static mt_status allocate_ring(mt_context *context, mt_index face_count, mt_limi
     rings->ring.spokes = mt_allocate_array(context, room, sizeof *rings->ring.spokes);
     rings->corners = mt_allocate_array(context, room, sizeof(mt_index));
     rings->starts = mt_allocate_array(context, room, sizeof(mt_index));
-    bool complete = rings->ring.ring.ends && rings->ring.ring.diagonals && rings->ring.spokes && rings->corners &&
-                    rings->starts;
+    bool complete =
+        rings->ring.ring.ends && rings->ring.ring.diagonals && rings->ring.spokes && rings->corners && rings->starts;
     return complete ? MT_OK : mt_context_error(context)->status;
 }
 
@@ -73,11 +74,9 @@ static mt_status number_edges(mt_context *context, mt_limit_rings *rings)
     return MT_OK;
 }
 
-mt_status mt_limit_rings_create(mt_context *context, const mt_subdivide_topology *topology, const mt_mesh *mesh,
-                                const mt_subdivide_sharp *sharp, const float *halves, mt_limit_rings *rings)
+mt_status mt_limit_rings_create(mt_context *context, mt_limit_rings *rings)
 {
-    *rings = (mt_limit_rings){.topology = topology, .mesh = mesh, .sharp = sharp, .halves = halves};
-    mt_index largest = find_large(topology, NULL, &rings->large_count);
+    mt_index largest = find_large(rings, NULL, &rings->large_count);
     mt_status status = allocate_ring(context, largest, rings);
     if (status == MT_OK) {
         rings->large = mt_allocate_array(context, rings->large_count, sizeof *rings->large);
@@ -88,7 +87,7 @@ mt_status mt_limit_rings_create(mt_context *context, const mt_subdivide_topology
         return status;
     }
     rings->large_count = 0;
-    find_large(topology, rings->large, &rings->large_count);
+    find_large(rings, rings->large, &rings->large_count);
     return MT_OK;
 }
 
@@ -193,8 +192,8 @@ mt_limit_sector mt_limit_rings_sector(const mt_limit_rings *rings, mt_index numb
 {
     const mt_limit_ring *ring = &rings->ring.ring;
     mt_limit_sector sector = {rings->starts[number], 0};
-    mt_index end = ring->closed && number + 1 == sector_count ? rings->starts[0] + ring->face_count
-                                                              : rings->starts[number + 1];
+    mt_index end =
+        ring->closed && number + 1 == sector_count ? rings->starts[0] + ring->face_count : rings->starts[number + 1];
     sector.face_count = end - sector.first;
     return sector;
 }

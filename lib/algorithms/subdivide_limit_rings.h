@@ -12,17 +12,19 @@ typedef struct mt_limit_rings {
     const mt_subdivide_topology *topology; /* of quads, with a corner for each vertex */
     const mt_mesh *mesh;
     const mt_subdivide_sharp *sharp;
-    const float *halves; /* per spoke number its half's sharpness at the next level */
+    const float *halves;      /* per spoke number its half's sharpness at the next level */
+    mt_index irregular_count; /* only so many first vertices may have other than four faces */
+
     mt_index *edge_slots; /* per edge its number among the sharp ones; NULL when there are none */
     mt_index large_count;
-    mt_index *large;         /* vertices of rings that are not small */
+    mt_index *large;          /* vertices of rings that are not small */
     mt_limit_sharp_ring ring; /* with room for the largest */
     mt_index *corners;        /* per face of that ring the vertex's corner in it */
     mt_index *starts;         /* and its sharp spokes, those of a boundary among them */
 } mt_limit_rings;
 
-mt_status mt_limit_rings_create(mt_context *context, const mt_subdivide_topology *topology, const mt_mesh *mesh,
-                                const mt_subdivide_sharp *sharp, const float *halves, mt_limit_rings *rings);
+/* Allocates what comes after irregular_count; all before that, which is borrowed, must be set. */
+mt_status mt_limit_rings_create(mt_context *context, mt_limit_rings *rings);
 void mt_limit_rings_release(mt_context *context, mt_limit_rings *rings);
 
 /* The ring of a vertex that has faces, into the given memory; false when it has more than `room` of them. corners may

@@ -48,7 +48,7 @@ mt_status mt_subdivide_topology_of_mesh(mt_context *context, const mt_mesh *mesh
 mt_status mt_subdivide_topology_of_values(mt_context *context, const mt_subdivide_topology *base,
                                           const mt_attribute *attribute, mt_subdivide_topology *topology);
 
-/* Finds vertex_corners of a level 0 that has none yet. */
+/* Finds vertex_corners of all vertices, of a level that can be walked and does not own its corners. */
 mt_status mt_subdivide_find_vertex_corners(mt_context *context, mt_subdivide_topology *topology);
 
 /* Edges of the mesh that a corner attribute splits in two; `missing_is_one`: corners without a value have the same one.

@@ -52,7 +52,8 @@ typedef enum mt_subdivide_triangles {
 /* All zeros means the defaults. */
 typedef struct mt_subdivide_options {
     unsigned level_count; /* 0: 1 level; at most MT_SUBDIVIDE_LEVEL_LIMIT, else MT_ERROR_ARGUMENT */
-    bool no_levels;       /* really 0 levels: a copy, unchecked */
+    bool no_levels;       /* really 0 levels: a copy, unchecked but for `limit`, which then needs quads */
+    bool limit;           /* the vertices of the last level lie on the limit surface, with its normals */
     mt_subdivide_boundary boundary;
     mt_subdivide_crease_method crease_method;
     mt_subdivide_face_varying face_varying;
@@ -91,9 +92,12 @@ mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_
  *   corner attributes    as face_varying says; linearly: midpoints of edges and means of faces. A seam of an indexed
  *              one stays a seam, and its values are numbered as vertices are; one without indices gets them. With other
  *              rules than linear ones each vertex gets values of its own first: by vertex, and there by the first
- * corner around it. Corners that have no value make their face pass none on. Integers of generic meaning are copied
- * from the old corner normals    by the same rules, then made unit: they are carried, not computed anew, and a warning
- * says so creases, sharp vertices    as OpenSubdiv 3.5 follows them, in single precision as there: an edge or vertex of
+ *              corner around it. Corners that have no value make their face pass none on. Integers of generic meaning
+ *              are copied from the old corner
+ *   normals    by the same rules, then made unit: they are carried, not computed anew, and a warning says so. With
+ *              `limit` they are those of the limit surface: one a vertex, or where creases and corners part some, one
+ *              for each smooth part around a vertex, on corners
+ *   creases, sharp vertices    as OpenSubdiv 3.5 follows them, in single precision as there: an edge or vertex of
  *              sharpness s stays sharp for s levels, 10 and more for ever, and blends with the smooth rule when less
  *              than 1 is left. Boundary edges are infinitely sharp. What is left of the sharpness is passed on to the
  *              halves of the edges
@@ -109,6 +113,17 @@ mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_
  * vertex twice), MT_ERROR_NOT_ORIENTED; the message names the first offender and says whether repair can help.
  * MT_ERROR_TOO_LARGE before anything of that size is allocated; MT_ERROR_OUT_OF_MEMORY, MT_ERROR_CANCELLED. */
 mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdivide_options *options, mt_mesh **out);
+
+/* How far the vertices of a level lie from where they go in the limit, in the mesh's units. */
+typedef struct mt_limit_distance {
+    double max, root_mean_square;
+    mt_index vertex; /* that of max; MT_NONE when there are none */
+} mt_limit_distance;
+
+/* Of the level that the options ask for, by the closed form of the limit and no finer level. Errors and cost: those of
+ * mt_subdivide, done twice. */
+mt_status mt_subdivide_evaluate(mt_context *context, const mt_mesh *mesh, const mt_subdivide_options *options,
+                                mt_limit_distance *out);
 
 #ifdef __cplusplus
 }
