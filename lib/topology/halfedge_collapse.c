@@ -61,8 +61,7 @@ mt_status mt_halfedge_collapse_edge(mt_context *context, mt_halfedge_surgery *su
 {
     mt_halfedge_mesh *own = &surgery->structure;
     mt_surgery_view view = mt_halfedge_view(surgery);
-    view.log = &surgery->log;
-    mt_status status = mt_surgery_enter_collapse(context, &view, halfedge, weight);
+    mt_status status = mt_surgery_enter_collapse(context, &view, &surgery->log, halfedge, weight);
     if (status != MT_OK) {
         return status;
     }

@@ -5,27 +5,13 @@
 static mt_status number_elements(mt_context *context, const mt_halfedge_surgery *surgery, mt_surgery_map *map,
                                  mt_halfedge_mesh *out)
 {
-    const mt_halfedge_mesh *own = &surgery->structure;
-    map->vertex_count = own->vertex_count;
-    map->edge_count = own->halfedge_count / 2;
-    map->face_count = own->face_count;
-    map->vertices = mt_allocate_array(context, own->vertex_count, sizeof(mt_index));
-    map->edges = mt_allocate_array(context, own->halfedge_count / 2, sizeof(mt_index));
-    map->faces = mt_allocate_array(context, own->face_count, sizeof(mt_index));
-    if (!map->vertices || !map->edges || !map->faces) {
-        return mt_context_error(context)->status;
-    }
-    for (mt_index i = 0; i < own->vertex_count; i++) {
-        map->vertices[i] = surgery->vertex_deleted[i] ? MT_NONE : out->vertex_count++;
-    }
-    for (mt_index i = 0; i < own->halfedge_count / 2; i++) {
-        map->edges[i] = own->halfedges[2 * i].head == MT_NONE ? MT_NONE : out->halfedge_count++;
-    }
-    for (mt_index i = 0; i < own->face_count; i++) {
-        map->faces[i] = own->face_halfedge[i] == MT_NONE ? MT_NONE : out->face_count++;
-    }
-    out->halfedge_count *= 2;
-    return MT_OK;
+    mt_surgery_view view = mt_halfedge_view(surgery);
+    mt_surgery_counts counts;
+    mt_status status = mt_surgery_number(context, &view, true, map, &counts);
+    out->vertex_count = counts.vertex_count;
+    out->face_count = counts.face_count;
+    out->halfedge_count = 2 * counts.edge_count;
+    return status;
 }
 
 static mt_index renumber(const mt_surgery_map *map, mt_index halfedge)

@@ -15,8 +15,7 @@ void mt_halfedge_set_triangle(mt_halfedge_mesh *structure, mt_index face, mt_ind
 mt_status mt_halfedge_swap_edge(mt_context *context, mt_halfedge_surgery *surgery, mt_index edge)
 {
     mt_surgery_view view = mt_halfedge_view(surgery);
-    view.log = &surgery->log;
-    mt_status status = mt_surgery_enter_swap(context, &view, edge);
+    mt_status status = mt_surgery_enter_swap(context, &view, &surgery->log, edge);
     if (status != MT_OK) {
         return status;
     }
@@ -81,8 +80,7 @@ mt_status mt_halfedge_split_edge(mt_context *context, mt_halfedge_surgery *surge
     mt_halfedge_mesh *own = &surgery->structure;
     mt_status status = mt_halfedge_reserve(context, surgery, 1, 3, 2);
     mt_surgery_view view = mt_halfedge_view(surgery);
-    view.log = &surgery->log;
-    status = status == MT_OK ? mt_surgery_enter_split_edge(context, &view, halfedge, weight) : status;
+    status = status == MT_OK ? mt_surgery_enter_split_edge(context, &view, &surgery->log, halfedge, weight) : status;
     if (status != MT_OK) {
         return status;
     }

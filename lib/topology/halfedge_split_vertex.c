@@ -105,8 +105,7 @@ mt_status mt_halfedge_split_vertex(mt_context *context, mt_halfedge_surgery *sur
     mt_halfedge_mesh *own = &surgery->structure;
     mt_status status = mt_halfedge_reserve(context, surgery, 1, 3, 2);
     mt_surgery_view view = mt_halfedge_view(surgery);
-    view.log = &surgery->log;
-    status = status == MT_OK ? mt_surgery_enter_split_vertex(context, &view, vertex, from, to) : status;
+    status = status == MT_OK ? mt_surgery_enter_split_vertex(context, &view, &surgery->log, vertex, from, to) : status;
     if (status != MT_OK) {
         return status;
     }

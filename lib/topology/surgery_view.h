@@ -22,7 +22,6 @@ typedef struct mt_surgery_view {
     mt_index (*face_side)(const void *structure, mt_index face);     /* MT_NONE when deleted */
     const uint8_t *vertex_deleted;
     uint8_t *marks; /* a vertex each, 0 between calls */
-    mt_edit_log *log;
 } mt_surgery_view;
 
 static inline mt_index surgery_next(const mt_surgery_view *view, mt_index side)
@@ -95,11 +94,13 @@ mt_surgery_verdict mt_surgery_judge_add_face(const mt_surgery_view *view, mt_ind
  * the next ones. Nothing may fail after this; so room for the elements must have been made before. On failure nothing
  * is written. A side that is out of range, and not MT_NONE, stands for one that is not there. Costs as the predicates.
  */
-mt_status mt_surgery_enter_swap(mt_context *context, const mt_surgery_view *view, mt_index edge);
-mt_status mt_surgery_enter_split_edge(mt_context *context, const mt_surgery_view *view, mt_index side, double weight);
-mt_status mt_surgery_enter_split_vertex(mt_context *context, const mt_surgery_view *view, mt_index vertex,
-                                        mt_index from, mt_index to);
-mt_status mt_surgery_enter_collapse(mt_context *context, const mt_surgery_view *view, mt_index side, double weight);
+mt_status mt_surgery_enter_swap(mt_context *context, const mt_surgery_view *view, mt_edit_log *log, mt_index edge);
+mt_status mt_surgery_enter_split_edge(mt_context *context, const mt_surgery_view *view, mt_edit_log *log, mt_index side,
+                                      double weight);
+mt_status mt_surgery_enter_split_vertex(mt_context *context, const mt_surgery_view *view, mt_edit_log *log,
+                                        mt_index vertex, mt_index from, mt_index to);
+mt_status mt_surgery_enter_collapse(mt_context *context, const mt_surgery_view *view, mt_edit_log *log, mt_index side,
+                                    double weight);
 
 /* The part of the fan of a split vertex that passes to the new one: the sides from `begin` on, clockwise, before `end`,
  * and the sector clockwise of each and of `to`. Empty when begin is end. */
@@ -107,5 +108,13 @@ typedef struct mt_surgery_fan {
     mt_index begin, end;
 } mt_surgery_fan;
 mt_surgery_fan mt_surgery_find_fan(const mt_surgery_view *view, mt_index vertex, mt_index from, mt_index to);
+
+/* Numbers what is left in its order, in a new map, and says how much that is; edges only where the structure numbers
+ * them. On failure the map holds what is to be released. O(size). */
+typedef struct mt_surgery_counts {
+    mt_index vertex_count, edge_count, face_count;
+} mt_surgery_counts;
+mt_status mt_surgery_number(mt_context *context, const mt_surgery_view *view, bool numbers_edges, mt_surgery_map *map,
+                            mt_surgery_counts *counts);
 
 #endif

@@ -7,9 +7,9 @@ mt_status mt_triangle_swap_edge(mt_context *context, mt_triangle_surgery *surger
 {
     mt_triangle_neighbor_mesh *own = &surgery->structure;
     mt_surgery_view view = mt_triangle_view(surgery);
-    view.log = &surgery->log;
     bool exists = side < 3 * own->triangle_count && own->vertices[side] != MT_NONE;
-    mt_status status = mt_surgery_enter_swap(context, &view, exists ? triangle_side(own, side) >> 1 : MT_NONE);
+    mt_status status =
+        mt_surgery_enter_swap(context, &view, &surgery->log, exists ? triangle_side(own, side) >> 1 : MT_NONE);
     if (status != MT_OK) {
         return status;
     }
@@ -70,8 +70,7 @@ mt_status mt_triangle_split_edge(mt_context *context, mt_triangle_surgery *surge
     mt_status status = mt_triangle_reserve(context, surgery, 1, 2);
     mt_index along = mt_triangle_side_from(surgery, side, tail);
     mt_surgery_view view = mt_triangle_view(surgery);
-    view.log = &surgery->log;
-    status = status == MT_OK ? mt_surgery_enter_split_edge(context, &view, along, weight) : status;
+    status = status == MT_OK ? mt_surgery_enter_split_edge(context, &view, &surgery->log, along, weight) : status;
     if (status != MT_OK) {
         return status;
     }
@@ -130,8 +129,7 @@ mt_status mt_triangle_collapse_edge(mt_context *context, mt_triangle_surgery *su
     mt_triangle_neighbor_mesh *own = &surgery->structure;
     mt_index along = mt_triangle_side_from(surgery, side, tail);
     mt_surgery_view view = mt_triangle_view(surgery);
-    view.log = &surgery->log;
-    mt_status status = mt_surgery_enter_collapse(context, &view, along, weight);
+    mt_status status = mt_surgery_enter_collapse(context, &view, &surgery->log, along, weight);
     if (status != MT_OK) {
         return status;
     }

@@ -124,21 +124,12 @@ void mt_triangle_anchor(mt_triangle_neighbor_mesh *own, mt_index corner)
 static mt_status number_elements(mt_context *context, const mt_triangle_surgery *surgery, mt_surgery_map *map,
                                  mt_triangle_neighbor_mesh *out)
 {
-    const mt_triangle_neighbor_mesh *own = &surgery->structure;
-    *map = (mt_surgery_map){.vertex_count = own->vertex_count,
-                            .face_count = own->triangle_count,
-                            .vertices = mt_allocate_array(context, own->vertex_count, sizeof(mt_index)),
-                            .faces = mt_allocate_array(context, own->triangle_count, sizeof(mt_index))};
-    if (!map->vertices || !map->faces) {
-        return MT_ERROR_OUT_OF_MEMORY;
-    }
-    for (mt_index i = 0; i < own->vertex_count; i++) {
-        map->vertices[i] = surgery->vertex_deleted[i] ? MT_NONE : out->vertex_count++;
-    }
-    for (mt_index i = 0; i < own->triangle_count; i++) {
-        map->faces[i] = own->vertices[3 * i] == MT_NONE ? MT_NONE : out->triangle_count++;
-    }
-    return MT_OK;
+    mt_surgery_view view = mt_triangle_view(surgery);
+    mt_surgery_counts counts;
+    mt_status status = mt_surgery_number(context, &view, false, map, &counts);
+    out->vertex_count = counts.vertex_count;
+    out->triangle_count = counts.face_count;
+    return status;
 }
 
 static mt_index renumber(const mt_surgery_map *map, mt_index corner)

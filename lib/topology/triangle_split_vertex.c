@@ -71,10 +71,10 @@ mt_status mt_triangle_split_vertex(mt_context *context, mt_triangle_surgery *sur
     mt_triangle_neighbor_mesh *own = &surgery->structure;
     mt_status status = mt_triangle_reserve(context, surgery, 1, 2);
     mt_surgery_view view = mt_triangle_view(surgery);
-    view.log = &surgery->log;
     mt_index into_from = from == MT_NONE ? MT_NONE : mt_triangle_side_from(surgery, from, vertex) ^ 1u;
     mt_index into_to = to == MT_NONE ? MT_NONE : mt_triangle_side_from(surgery, to, vertex) ^ 1u;
-    status = status == MT_OK ? mt_surgery_enter_split_vertex(context, &view, vertex, into_from, into_to) : status;
+    status = status == MT_OK ? mt_surgery_enter_split_vertex(context, &view, &surgery->log, vertex, into_from, into_to)
+                             : status;
     if (status != MT_OK) {
         return status;
     }

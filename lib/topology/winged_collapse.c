@@ -82,8 +82,7 @@ mt_status mt_winged_collapse_edge(mt_context *context, mt_winged_surgery *surger
     mt_winged_edge_mesh *own = &surgery->structure;
     mt_index side = mt_winged_side_from(surgery, edge, tail), twin = side ^ 1u;
     mt_surgery_view view = mt_winged_view(surgery);
-    view.log = &surgery->log;
-    mt_status status = mt_surgery_enter_collapse(context, &view, side, weight);
+    mt_status status = mt_surgery_enter_collapse(context, &view, &surgery->log, side, weight);
     if (status != MT_OK) {
         return status;
     }

@@ -5,26 +5,13 @@
 static mt_status number_elements(mt_context *context, const mt_winged_surgery *surgery, mt_surgery_map *map,
                                  mt_winged_edge_mesh *out)
 {
-    const mt_winged_edge_mesh *own = &surgery->structure;
-    *map = (mt_surgery_map){.vertex_count = own->vertex_count,
-                            .edge_count = own->edge_count,
-                            .face_count = own->face_count,
-                            .vertices = mt_allocate_array(context, own->vertex_count, sizeof(mt_index)),
-                            .edges = mt_allocate_array(context, own->edge_count, sizeof(mt_index)),
-                            .faces = mt_allocate_array(context, own->face_count, sizeof(mt_index))};
-    if (!map->vertices || !map->edges || !map->faces) {
-        return MT_ERROR_OUT_OF_MEMORY;
-    }
-    for (mt_index i = 0; i < own->vertex_count; i++) {
-        map->vertices[i] = surgery->vertex_deleted[i] ? MT_NONE : out->vertex_count++;
-    }
-    for (mt_index i = 0; i < own->edge_count; i++) {
-        map->edges[i] = own->edges[i].head == MT_NONE ? MT_NONE : out->edge_count++;
-    }
-    for (mt_index i = 0; i < own->face_count; i++) {
-        map->faces[i] = own->face_edge[i] == MT_NONE ? MT_NONE : out->face_count++;
-    }
-    return MT_OK;
+    mt_surgery_view view = mt_winged_view(surgery);
+    mt_surgery_counts counts;
+    mt_status status = mt_surgery_number(context, &view, true, map, &counts);
+    out->vertex_count = counts.vertex_count;
+    out->face_count = counts.face_count;
+    out->edge_count = counts.edge_count;
+    return status;
 }
 
 static mt_index renumber(const mt_index *map, mt_index old)

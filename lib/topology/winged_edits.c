@@ -6,8 +6,7 @@ mt_status mt_winged_swap_edge(mt_context *context, mt_winged_surgery *surgery, m
 {
     mt_winged_edge_mesh *own = &surgery->structure;
     mt_surgery_view view = mt_winged_view(surgery);
-    view.log = &surgery->log;
-    mt_status status = mt_surgery_enter_swap(context, &view, edge);
+    mt_status status = mt_surgery_enter_swap(context, &view, &surgery->log, edge);
     if (status != MT_OK) {
         return status;
     }
@@ -66,8 +65,7 @@ mt_status mt_winged_split_edge(mt_context *context, mt_winged_surgery *surgery, 
     mt_status status = mt_winged_reserve(context, surgery, 1, 3, 2);
     mt_index side = mt_winged_side_from(surgery, edge, tail);
     mt_surgery_view view = mt_winged_view(surgery);
-    view.log = &surgery->log;
-    status = status == MT_OK ? mt_surgery_enter_split_edge(context, &view, side, weight) : status;
+    status = status == MT_OK ? mt_surgery_enter_split_edge(context, &view, &surgery->log, side, weight) : status;
     if (status != MT_OK) {
         return status;
     }

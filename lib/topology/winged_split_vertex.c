@@ -108,10 +108,10 @@ mt_status mt_winged_split_vertex(mt_context *context, mt_winged_surgery *surgery
     mt_winged_edge_mesh *own = &surgery->structure;
     mt_status status = mt_winged_reserve(context, surgery, 1, 3, 2);
     mt_surgery_view view = mt_winged_view(surgery);
-    view.log = &surgery->log;
     mt_index into[2] = {from == MT_NONE ? MT_NONE : mt_winged_side_from(surgery, from, vertex) ^ 1u,
                         to == MT_NONE ? MT_NONE : mt_winged_side_from(surgery, to, vertex) ^ 1u};
-    status = status == MT_OK ? mt_surgery_enter_split_vertex(context, &view, vertex, into[0], into[1]) : status;
+    status = status == MT_OK ? mt_surgery_enter_split_vertex(context, &view, &surgery->log, vertex, into[0], into[1])
+                             : status;
     if (status != MT_OK) {
         return status;
     }
