@@ -69,29 +69,42 @@ static const cli_option options[] = {
      .expects = "normal, smooth or as-tagged",
      .choices = triangles,
      .help = "smooth: other weights beside triangles, which ripple less; normal, unless the file has a tag"},
+    {.name = "limit",
+     .offset = offsetof(cli_subdivide_settings, limit),
+     .help = "move the vertices to the limit surface, and write its normals; -n 0 --limit needs quads"},
+    {.name = "evaluate",
+     .offset = offsetof(cli_subdivide_settings, evaluate),
+     .help = "say how far the vertices of each level are from where they go in the limit; needs no -o"},
     {.name = "dry-run",
      .offset = offsetof(cli_subdivide_settings, dry_run),
      .help = "only say the counts, bytes and expected time of each level; needs no -o"},
     {0},
 };
 
-static void print_json(const cli_job *job, const mt_mesh_format *read, const mt_mesh *mesh, json_t *lost)
+/* refined and lost: NULL when nothing is written; distance: NULL unless asked for. */
+static void print_json(const cli_job *job, const mt_mesh_format *read, const mt_mesh *refined, json_t *lost,
+                       json_t *distance)
 {
     const cli_subdivide_settings *settings = job->settings;
     json_t *object = cli_json_object();
     cli_json_set(object, "file", cli_json_text(job->operands[0]));
     cli_json_set(object, "format", cli_json_text(read->name));
-    cli_json_set(object, "output", cli_json_text(job->common->output));
     cli_json_set(object, "levels", cli_json_integer(settings->levels));
-    cli_json_set(object, "vertices", cli_json_integer(mesh->vertex_count));
-    cli_json_set(object, "faces", cli_json_integer(mesh->face_count));
-    cli_json_set(object, "lost", lost);
+    if (refined) {
+        cli_json_set(object, "output", cli_json_text(job->common->output));
+        cli_json_set(object, "vertices", cli_json_integer(refined->vertex_count));
+        cli_json_set(object, "faces", cli_json_integer(refined->face_count));
+        cli_json_set(object, "lost", json_incref(lost));
+    }
+    if (distance) {
+        cli_json_set(object, "distance", json_incref(distance));
+    }
     cli_json_print_line(object);
     json_decref(object);
 }
 
 static cli_exit refine(const cli_job *job, const mt_mesh *mesh, const mt_mesh_format *read,
-                       const mt_subdivide_options *how)
+                       const mt_subdivide_options *how, json_t *distance)
 {
     mt_mesh *refined = NULL;
     if (mt_subdivide(job->context, mesh, how, &refined) != MT_OK) {
@@ -100,10 +113,25 @@ static cli_exit refine(const cli_job *job, const mt_mesh *mesh, const mt_mesh_fo
     json_t *lost = NULL;
     cli_exit code = cli_write_mesh(job, refined, job->common->output, &lost);
     if (code == CLI_EXIT_DONE && job->common->json) {
-        print_json(job, read, refined, json_incref(lost));
+        print_json(job, read, refined, lost, distance);
     }
     json_decref(lost);
     mt_mesh_destroy(job->context, refined);
+    return code;
+}
+
+static cli_exit evaluate_and_refine(const cli_job *job, const mt_mesh *mesh, const mt_mesh_format *read,
+                                    const mt_subdivide_options *how)
+{
+    const cli_subdivide_settings *settings = job->settings;
+    json_t *distance = NULL;
+    cli_exit code = settings->evaluate ? cli_subdivide_evaluate(job, mesh, how, &distance) : CLI_EXIT_DONE;
+    if (code == CLI_EXIT_DONE && (settings->common.output || !settings->evaluate)) {
+        code = refine(job, mesh, read, how, distance);
+    } else if (code == CLI_EXIT_DONE && job->common->json) {
+        print_json(job, read, NULL, NULL, distance);
+    }
+    json_decref(distance);
     return code;
 }
 
@@ -115,6 +143,7 @@ static cli_exit run_on(const cli_job *job, const mt_mesh *mesh, const mt_mesh_fo
     mt_subdivide_options how = {
         .level_count = settings->levels,
         .no_levels = settings->levels == 0,
+        .limit = settings->limit,
         .boundary = (mt_subdivide_boundary)settings->boundary,
         .crease_method = (mt_subdivide_crease_method)settings->crease_method,
         .face_varying = settings->face_varying == LINEAR_PLACE ? MT_SUBDIVIDE_FACE_VARYING_ALL
@@ -129,7 +158,7 @@ static cli_exit run_on(const cli_job *job, const mt_mesh *mesh, const mt_mesh_fo
         .hole_count = list.hole_count,
     };
     if (code == CLI_EXIT_DONE) {
-        code = settings->dry_run ? cli_subdivide_foretell(job, mesh, &how) : refine(job, mesh, read, &how);
+        code = settings->dry_run ? cli_subdivide_foretell(job, mesh, &how) : evaluate_and_refine(job, mesh, read, &how);
     }
     cli_crease_list_release(job, &list);
     return code;
@@ -140,7 +169,7 @@ static cli_exit run(const cli_job *job)
     const cli_subdivide_settings *settings = job->settings;
     const mt_mesh_format *read = NULL, *written = NULL;
     cli_exit code = cli_check_inputs(job);
-    if (code == CLI_EXIT_DONE && !settings->dry_run) {
+    if (code == CLI_EXIT_DONE && !settings->dry_run && (settings->common.output || !settings->evaluate)) {
         code = cli_check_mesh_output(job, settings->common.output, &written);
     }
     mt_mesh *mesh = NULL;
@@ -167,6 +196,7 @@ const cli_command cli_subdivide_command = {
         "or whose faces are not oriented alike, is refused (exit 3); check-manifold shows where.",
     .examples = "  meshtool subdivide cow.obj -o smooth.obj -n 2\n"
                 "  meshtool subdivide part.stl -o rounded.obj -n 3 --crease-angle 40\n"
+                "  meshtool subdivide cage.obj -o surface.ply -n 4 --limit\n"
                 "  meshtool subdivide cow.obj -n 5 --dry-run\n",
     .options = options,
     .groups = CLI_GROUP_OUTPUT | CLI_GROUP_WRITE | CLI_GROUP_MESH | CLI_GROUP_READ | CLI_GROUP_PRECISION |

@@ -27,11 +27,12 @@ static void store(const limit_job *job, mt_index vertex, mt_vec3 position)
     }
 }
 
+/* Adding 0 leaves no -0, which text would show. */
 static void store_normal(const limit_job *job, mt_index value, mt_vec3 normal)
 {
-    mt_attribute_set(job->normals, value, 0, normal.x);
-    mt_attribute_set(job->normals, value, 1, normal.y);
-    mt_attribute_set(job->normals, value, 2, normal.z);
+    mt_attribute_set(job->normals, value, 0, normal.x + 0.0);
+    mt_attribute_set(job->normals, value, 1, normal.y + 0.0);
+    mt_attribute_set(job->normals, value, 2, normal.z + 0.0);
 }
 
 /* Of a vertex as if nothing were sharp but the boundary. */

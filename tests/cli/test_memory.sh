@@ -42,6 +42,7 @@ for file in cube.stl sphere.ply; do
   sweep convert "$file" out/x.obj --triangulate --weld --rotate x,30
   sweep convert "$file" out/x.stl
   sweep subdivide "$file" -o out/x.ply -n 2
+  sweep subdivide "$file" -o out/x.ply --limit
   sweep subdivide "$file" --dry-run
   sweep preview "$file" -o out/x.png --size 64x64
 done
