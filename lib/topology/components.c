@@ -1,13 +1,18 @@
-/* Faces are joined across edges by union-find: parents point to lower faces only and paths are halved on the way. Where
- * some edge is misoriented each link also says whether the two faces run against each other, and an edge whose faces
- * are joined already may contradict: then nothing can orient the surface.
+/* Faces are joined across edges by union-find: parents point to lower faces only and paths are halved on the way. First
+ * each face is linked to its lowest neighbour, which one pass does; of what is left only the faces outside of the
+ * largest tree are looked at again. Where some edge is misoriented each link also says whether the two faces run
+ * against each other, and an edge whose faces are joined already may contradict: then nothing can orient the surface.
  *
- * Source: Tarjan, van Leeuwen, "Worst-case Analysis of Set Union Algorithms", Journal of the ACM 31 (1984).
+ * Source: Tarjan, van Leeuwen, "Worst-case Analysis of Set Union Algorithms", Journal of the ACM 31 (1984);
+ * Sutton, Ben-Nun, Barak, "Optimizing Parallel Graph Connectivity Computation via Subgraph Sampling", IPDPS 2018.
  * Cost: nearly O(corners) time; 4 bytes a face, 1 more where edges are misoriented, 4 a corner where faces differ in
  * size. */
 #include <meshtool/components.h>
 
 #include <string.h>
+
+#define RANGES_MAXIMUM 4 /* of faces, linked by a thread each */
+#define SAMPLE_COUNT 64
 
 typedef struct joining {
     const mt_mesh *mesh;
@@ -16,6 +21,8 @@ typedef struct joining {
     mt_index *parent;
     uint8_t *turned; /* against the parent; NULL when no edge is misoriented */
     mt_index unions;
+    mt_index range_unions[RANGES_MAXIMUM];
+    mt_index range_count;
     mt_index unorientable_corner;
 } joining;
 
@@ -83,30 +90,81 @@ static void join_signed_faces(joining *job, mt_index a, mt_index b, bool against
     job->unions++;
 }
 
-/* Corners that memory is given to fetch the parents of faces, which are far apart when faces are in a random order. */
-#define LOOK_AHEAD 48
-
-static inline void look_ahead(const joining *job, mt_index corner)
+/* One range's faces: each is joined to its lowest neighbour, and then hangs at that one's parent, which is a root or in
+ * a range below. */
+static void link_range(joining *job, mt_index range)
 {
-    if (job->pairs->corner_count - corner > LOOK_AHEAD) {
-        mt_index other = job->pairs->next_side[corner + LOOK_AHEAD];
-        __builtin_prefetch(&job->parent[face_of(job, other < corner ? other : corner)], 1);
+    uint64_t face_count = job->mesh->face_count;
+    mt_index begin = (mt_index)(face_count * range / job->range_count);
+    mt_index end = (mt_index)(face_count * (range + 1) / job->range_count);
+    const mt_index *next_side = job->pairs->next_side;
+    mt_index *parent = job->parent;
+    mt_index unions = 0;
+    for (mt_index face = begin; face < end; face++) {
+        mt_index lowest = mt_mesh_face_begin(job->mesh, face);
+        mt_index last = mt_mesh_face_end(job->mesh, face);
+        for (mt_index c = lowest; c < last; c++) {
+            lowest = next_side[c] < lowest ? next_side[c] : lowest; /* MT_NONE, of a side a = b, is above all */
+        }
+        mt_index above = face_of(job, lowest);
+        unions += above != face;
+        parent[face] = above < begin || above == face ? above : parent[above];
+    }
+    job->range_unions[range] = unions;
+}
+
+static void link_ranges(void *user, uint64_t begin, uint64_t end)
+{
+    for (uint64_t range = begin; range < end; range++) {
+        link_range(user, (mt_index)range);
     }
 }
 
-/* A ring of sides descends, so every side but the first of an edge leads to one before. */
-static void join_all(joining *job)
+/* The root of most of some faces: of the largest component so far, if there is a large one. */
+static mt_index common_root(joining *job)
+{
+    mt_index roots[SAMPLE_COUNT];
+    mt_index best = 0, best_count = 0;
+    for (mt_index i = 0; i < SAMPLE_COUNT; i++) {
+        roots[i] = find_root(job->parent, (mt_index)((uint64_t)job->mesh->face_count * i / SAMPLE_COUNT));
+        mt_index count = 0;
+        for (mt_index j = 0; j <= i; j++) {
+            count += roots[j] == roots[i];
+        }
+        best = count > best_count ? roots[i] : best;
+        best_count = count > best_count ? count : best_count;
+    }
+    return best;
+}
+
+/* Joins the faces that do not hang at the common root to all of their neighbours. That takes in what may join those
+ * that do: around each edge every side leads to another, until all have been met. */
+static void join_rest(joining *job, mt_index common)
 {
     const mt_index *next_side = job->pairs->next_side;
     for (mt_index face = 0; face < job->mesh->face_count; face++) {
+        if (job->parent[face] == common || find_root(job->parent, face) == common) {
+            continue;
+        }
         mt_index end = mt_mesh_face_end(job->mesh, face);
         for (mt_index c = mt_mesh_face_begin(job->mesh, face); c < end; c++) {
-            look_ahead(job, c);
-            mt_index other = next_side[c];
-            if (other < c) {
-                join_faces(job, face, face_of(job, other));
+            if (next_side[c] != MT_NONE) {
+                join_faces(job, face, face_of(job, next_side[c]));
             }
         }
+    }
+}
+
+static void join_all(mt_context *context, joining *job)
+{
+    unsigned threads = mt_context_thread_count(context);
+    job->range_count = threads < RANGES_MAXIMUM ? threads : RANGES_MAXIMUM;
+    mt_parallel_for(context, job->range_count, 1, link_ranges, job);
+    for (mt_index range = 0; range < job->range_count; range++) {
+        job->unions += job->range_unions[range];
+    }
+    if (job->unions + 1 < job->mesh->face_count) {
+        join_rest(job, common_root(job));
     }
 }
 
@@ -132,10 +190,10 @@ static bool prepare(mt_context *context, joining *job)
     if (!job->parent) {
         return false;
     }
-    for (mt_index face = 0; face < mesh->face_count; face++) {
-        job->parent[face] = face;
-    }
     if (job->pairs->misoriented_count) {
+        for (mt_index face = 0; face < mesh->face_count; face++) {
+            job->parent[face] = face;
+        }
         job->turned = mt_allocate_zeroed(context, mesh->face_count);
         if (!job->turned) {
             return false;
@@ -155,12 +213,12 @@ static bool prepare(mt_context *context, joining *job)
     return true;
 }
 
-static void join_faces_of_mesh(joining *job)
+static void join_faces_of_mesh(mt_context *context, joining *job)
 {
     if (job->turned) {
         join_all_signed(job);
     } else {
-        join_all(job);
+        join_all(context, job);
     }
 }
 
@@ -190,7 +248,7 @@ mt_status mt_components_create(mt_context *context, const mt_mesh *mesh, const m
     joining job = {.mesh = mesh, .pairs = pairs, .unorientable_corner = MT_NONE};
     mt_status status = components && prepare(context, &job) ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
     if (status == MT_OK) {
-        join_faces_of_mesh(&job);
+        join_faces_of_mesh(context, &job);
         components->face_count = mesh->face_count;
         components->component_count = mesh->face_count - job.unions;
         components->unorientable_corner = job.unorientable_corner;

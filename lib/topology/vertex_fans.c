@@ -1,8 +1,10 @@
-/* A vertex whose edges are all boundary or regular is walked around from side to side: it has one fan when the walk
- * meets as many corners as name the vertex. Where an irregular edge or a degenerate face touches a vertex a walk has no
- * sense, and its faces are joined by union-find instead (irregular_fans.c).
+/* Where all edges are boundary or regular the order of the faces tells most (fan_minima.c). Where it does not, a vertex
+ * is walked around from side to side: it has one fan when the walk meets as many corners as name the vertex. Where an
+ * irregular edge or a degenerate face touches a vertex a walk has no sense, and its faces are joined by union-find
+ * instead (irregular_fans.c).
  *
  * Cost: O(vertices + corners) time. */
+#include "lib/topology/fan_minima.h"
 #include "lib/topology/irregular_fans.h"
 
 #include <string.h>
@@ -152,18 +154,21 @@ static void walk_vertices(void *user, uint64_t begin, uint64_t end)
     }
 }
 
-static mt_status find_fans(mt_context *context, fan_walk *walk, const uint8_t *degenerate)
+static bool is_irregular(const mt_edge_pairs *pairs, const uint8_t *degenerate)
+{
+    return pairs->misoriented_count || pairs->non_manifold_count || pairs->degenerate_side_count || degenerate;
+}
+
+static mt_status walk_fans(mt_context *context, fan_walk *walk, const uint8_t *degenerate)
 {
     unsigned threads = mt_context_thread_count(context);
     walk->range_count = threads < RANGES_MAXIMUM ? threads : RANGES_MAXIMUM;
     mt_parallel_for(context, walk->range_count, 1, gather_ranges, walk);
-    const mt_edge_pairs *pairs = walk->pairs;
-    bool irregular =
-        pairs->misoriented_count || pairs->non_manifold_count || pairs->degenerate_side_count || degenerate;
+    bool irregular = is_irregular(walk->pairs, degenerate);
     if (irregular) {
         mark_irregular(walk, degenerate);
     }
-    if (pairs->boundary_count) {
+    if (walk->pairs->boundary_count) {
         begin_at_boundary(walk);
     }
     mt_parallel_for(context, walk->mesh->vertex_count, GRAIN, walk_vertices, walk);
@@ -183,7 +188,7 @@ static mt_index *list_next_corners(mt_context *context, const mt_mesh *mesh)
     return next_corner;
 }
 
-static mt_status prepare_and_find(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
+static mt_status prepare_and_walk(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
                                   const uint8_t *degenerate, mt_vertex_fans *fans)
 {
     mt_index *next_corner = mesh->face_offsets ? list_next_corners(context, mesh) : NULL;
@@ -191,11 +196,25 @@ static mt_status prepare_and_find(mt_context *context, const mt_mesh *mesh, cons
     walk.corners = mt_allocate_array(context, mesh->vertex_count, sizeof *walk.corners);
     mt_status status = MT_ERROR_OUT_OF_MEMORY;
     if (walk.corners && (next_corner || !mesh->face_offsets)) {
-        status = find_fans(context, &walk, degenerate);
+        status = walk_fans(context, &walk, degenerate);
     }
     mt_free(context, walk.corners);
     mt_free(context, next_corner);
     return status;
+}
+
+static mt_status find_fans(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
+                           const uint8_t *degenerate, mt_vertex_fans *fans)
+{
+    bool done = false;
+    if (!is_irregular(pairs, degenerate)) {
+        mt_status status = mt_fans_by_minima(context, mesh, pairs, fans->fans, &done);
+        if (status != MT_OK || done) {
+            return status;
+        }
+        memset(fans->fans, 0, mesh->vertex_count);
+    }
+    return prepare_and_walk(context, mesh, pairs, degenerate, fans);
 }
 
 mt_status mt_vertex_fans_create(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
@@ -208,7 +227,7 @@ mt_status mt_vertex_fans_create(mt_context *context, const mt_mesh *mesh, const 
     }
     fans->vertex_count = mesh->vertex_count;
     fans->fans = mt_allocate_zeroed(context, mesh->vertex_count);
-    mt_status status = fans->fans ? prepare_and_find(context, mesh, pairs, degenerate, fans) : MT_ERROR_OUT_OF_MEMORY;
+    mt_status status = fans->fans ? find_fans(context, mesh, pairs, degenerate, fans) : MT_ERROR_OUT_OF_MEMORY;
     if (status != MT_OK) {
         mt_vertex_fans_destroy(context, fans);
         return status;
