@@ -9,6 +9,7 @@
  * mt_collinear the rest.
  * Cost: O(vertices + corners) time. */
 #include "lib/algorithms/manifold_check.h"
+#include "lib/algorithms/triangle_terms.h"
 
 #include <meshtool/predicates.h>
 #include <meshtool/triangulate.h>
@@ -18,25 +19,8 @@
 #define PLAIN_MINIMUM 0x1p-100
 #define PLAIN_MAXIMUM 0x1p100
 
-/* Of the cross product of rounded differences, relative to the sum of the products' sizes; the constant term stands for
- * what underflows. Larger only sends more faces to the exact test. */
-#define CROSS_ERROR 0x1p-50
-#define CROSS_UNDERFLOW 0x1p-1000
-
-typedef struct compensated_sum {
-    double sum, rest;
-} compensated_sum;
-
-static inline void add_term(compensated_sum *total, double term)
-{
-    double sum = total->sum + term;
-    bool large = fabs(total->sum) >= fabs(term);
-    total->rest += large ? (total->sum - sum) + term : (term - sum) + total->sum;
-    total->sum = sum;
-}
-
 typedef struct block_sums {
-    compensated_sum area, volume;
+    compensated_sum total;
     mt_index zero_area_count;
 } block_sums;
 
@@ -112,8 +96,7 @@ static inline void measure_triangle(const measurement *job, mt_index triangle, c
     mt_vec3 ab = mt_vec3_subtract(scaled_position(job, vertex[1]), a);
     mt_vec3 ac = mt_vec3_subtract(scaled_position(job, vertex[2]), a);
     mt_vec3 cross = mt_vec3_cross(ab, ac);
-    add_term(&sums->area, mt_vec3_length(cross));
-    add_term(&sums->volume, mt_vec3_dot(mt_vec3_subtract(a, job->origin), cross));
+    add_term(&sums->total, (double2){mt_vec3_length(cross), mt_vec3_dot(mt_vec3_subtract(a, job->origin), cross)});
     if (job->faces_are_triangles && !is_surely_not_collinear(ab, ac)) {
         test_face(job, triangle, sums);
     }
@@ -122,30 +105,84 @@ static inline void measure_triangle(const measurement *job, mt_index triangle, c
 /* Triangles that memory is given to fetch positions, which are far apart when the faces are in a random order. */
 #define LOOK_AHEAD 16
 
-static inline void look_ahead(const measurement *job, mt_index triangle)
+/* Fetches what a later pair of triangles will need. */
+static inline void look_ahead(const measurement *job, mt_index first, bool plain)
 {
-    if (job->triangulation->triangle_count - triangle <= LOOK_AHEAD) {
+    if (job->triangulation->triangle_count - first < LOOK_AHEAD + 2) {
         return;
     }
     const mt_mesh *mesh = job->check->mesh;
-    size_t size = 3 * mt_type_size(mesh->position_type);
-    for (mt_index side = 0; side < 3; side++) {
-        mt_index corner = mt_triangulation_corner(job->triangulation, triangle + LOOK_AHEAD, side);
+    size_t size = plain ? 3 * sizeof(double) : 3 * mt_type_size(mesh->position_type);
+    for (mt_index side = 0; side < 6; side++) {
+        mt_index at = 3 * (first + LOOK_AHEAD) + side;
+        mt_index corner = plain || !job->triangulation->corners ? at : job->triangulation->corners[at];
         __builtin_prefetch((const char *)mesh->positions + mesh->corner_vertices[corner] * size);
     }
+}
+
+static inline void find_vertices(const measurement *job, mt_index triangle, mt_index vertex[3])
+{
+    for (mt_index side = 0; side < 3; side++) {
+        vertex[side] = job->check->mesh->corner_vertices[mt_triangulation_corner(job->triangulation, triangle, side)];
+    }
+}
+
+/* `plain`: positions are doubles and need no scaling, and the faces are the triangles. */
+static inline mt_vec3 load_position(const measurement *job, mt_index vertex, bool plain)
+{
+    if (plain) {
+        const double *p = (const double *)job->check->mesh->positions + 3 * (size_t)vertex;
+        return mt_vec3_make(p[0], p[1], p[2]);
+    }
+    return scaled_position(job, vertex);
+}
+
+static inline void measure_two(const measurement *job, mt_index first, bool plain, block_sums *sums)
+{
+    mt_index found[6];
+    const mt_index *vertices = job->check->mesh->corner_vertices + 3 * (size_t)first;
+    if (!plain) {
+        find_vertices(job, first, found);
+        find_vertices(job, first + 1, found + 3);
+        vertices = found;
+    }
+    triangle2 two;
+    for (int i = 0; i < 3; i++) {
+        mt_vec3 p = load_position(job, vertices[i], plain), q = load_position(job, vertices[i + 3], plain);
+        two.corner[i] = (vector2){{p.x, q.x}, {p.y, q.y}, {p.z, q.z}};
+    }
+    bool sure = add_two_triangles(&two, job->origin, &sums->total);
+    if (job->faces_are_triangles && !sure) {
+        test_face(job, first, sums);
+        test_face(job, first + 1, sums);
+    }
+}
+
+/* Two at a time; returns where it stopped. */
+static inline mt_index measure_pairs(const measurement *job, mt_index t, mt_index end, bool plain, block_sums *out)
+{
+    block_sums sums = {0};
+    for (; end - t >= 2; t += 2) {
+        look_ahead(job, t, plain);
+        measure_two(job, t, plain, &sums);
+    }
+    *out = sums;
+    return t;
 }
 
 static void measure_block(void *user, uint64_t begin, uint64_t end)
 {
     const measurement *job = user;
-    const mt_mesh *mesh = job->check->mesh;
     block_sums sums = {0};
-    for (mt_index t = (mt_index)begin; t < end; t++) {
-        look_ahead(job, t);
+    mt_index t = (mt_index)begin;
+    if (!job->check->vertex_is_non_finite) {
+        bool plain = job->faces_are_triangles && job->check->mesh->position_type == MT_F64 && job->scale == 1;
+        t = plain ? measure_pairs(job, t, (mt_index)end, true, &sums)
+                  : measure_pairs(job, t, (mt_index)end, false, &sums);
+    }
+    for (; t < end; t++) {
         mt_index vertex[3];
-        for (mt_index side = 0; side < 3; side++) {
-            vertex[side] = mesh->corner_vertices[mt_triangulation_corner(job->triangulation, t, side)];
-        }
+        find_vertices(job, t, vertex);
         if (!job->check->vertex_is_non_finite || all_finite(job->check, vertex, 3)) {
             measure_triangle(job, t, vertex, &sums);
         }
@@ -174,17 +211,15 @@ static double unscale(double sum, double scale, int factors)
 static void sum_blocks(const measurement *job, uint64_t block_count)
 {
     mt_manifold_report *report = job->check->report;
-    block_sums total = {0};
+    compensated_sum total = {0};
     for (uint64_t block = 0; block < block_count; block++) {
-        const block_sums *own = &job->blocks[block];
-        add_term(&total.area, own->area.sum);
-        add_term(&total.area, own->area.rest);
-        add_term(&total.volume, own->volume.sum);
-        add_term(&total.volume, own->volume.rest);
+        add_term(&total, job->blocks[block].total.sum);
+        add_term(&total, job->blocks[block].total.rest);
     }
-    report->area = unscale((total.area.sum + total.area.rest) / 2, job->scale, 2);
+    double2 sum = total.sum + total.rest;
+    report->area = unscale(sum[0] / 2, job->scale, 2);
     report->has_volume = report->manifold_class == MT_MANIFOLD && report->oriented == MT_YES;
-    report->volume = unscale((total.volume.sum + total.volume.rest) / 6, job->scale, 3);
+    report->volume = unscale(sum[1] / 6, job->scale, 3);
 }
 
 static void count_zero_area(const measurement *job, uint64_t block_count)

@@ -11,6 +11,8 @@
 #define RANGES_MAXIMUM 2
 #define RANGE_CORNERS 30000 /* below, a second thread takes longer to wake than to help */
 
+#define BLOCK_FACES 64 /* looked at together: most blocks concern only one range */
+
 /* Of the higher vertices of sampled sides. */
 #define BIN_COUNT 256
 #define SAMPLE_COUNT 4096
@@ -90,6 +92,34 @@ MT_ALWAYS_INLINE void add_face(chain_pairing *pairing, const mt_mesh *mesh, mt_i
     }
 }
 
+/* Whether a side of a block of corners may have its higher vertex in the range. */
+static bool concerns_range(const chain_pairing *pairing, const mt_index *vertices, mt_index count)
+{
+    mt_index lowest = MT_NONE, highest = 0;
+    for (mt_index i = 0; i < count; i++) {
+        lowest = vertices[i] < lowest ? vertices[i] : lowest;
+        highest = vertices[i] > highest ? vertices[i] : highest;
+    }
+    return highest >= pairing->begin && lowest < (uint64_t)pairing->begin + pairing->count;
+}
+
+/* False when there may be too little room. */
+MT_ALWAYS_INLINE bool add_block(chain_pairing *pairing, const mt_mesh *mesh, mt_index face, mt_index end, bool whole)
+{
+    mt_index begin = mt_mesh_face_begin(mesh, face);
+    mt_index corner_count = mt_mesh_face_begin(mesh, end) - begin;
+    if (!whole && !concerns_range(pairing, mesh->corner_vertices + begin, corner_count)) {
+        return true;
+    }
+    if (pairing->room - pairing->chains.entry_count < corner_count) {
+        return false;
+    }
+    for (; face < end; face++) {
+        add_face(pairing, mesh, face, whole);
+    }
+    return true;
+}
+
 /* False, with the result incomplete, when the chains grew long or too many. A local copy lives in registers, which
  * stores to the lists cannot touch. */
 MT_ALWAYS_INLINE bool add_faces(chain_pairing *pairing, const mt_mesh *mesh, bool whole)
@@ -97,11 +127,12 @@ MT_ALWAYS_INLINE bool add_faces(chain_pairing *pairing, const mt_mesh *mesh, boo
     chain_pairing local = *pairing;
     uint64_t step_limit = edge_chain_step_limit(mesh->corner_count);
     mt_index face = 0;
-    for (; face < mesh->face_count && local.chains.steps <= step_limit; face++) {
-        if (!whole && local.room - local.chains.entry_count < mt_mesh_face_sides(mesh, face)) {
+    while (face < mesh->face_count && local.chains.steps <= step_limit) {
+        mt_index end = mesh->face_count - face > BLOCK_FACES ? face + BLOCK_FACES : mesh->face_count;
+        if (!add_block(&local, mesh, face, end, whole)) {
             break;
         }
-        add_face(&local, mesh, face, whole);
+        face = end;
     }
     *pairing = local;
     return face == mesh->face_count;

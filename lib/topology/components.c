@@ -90,27 +90,42 @@ static void join_signed_faces(joining *job, mt_index a, mt_index b, bool against
     job->unions++;
 }
 
-/* One range's faces: each is joined to its lowest neighbour, and then hangs at that one's parent, which is a root or in
- * a range below. */
+/* The lowest corner across a side, or the face's own; MT_NONE, of a side a = b, is above all. */
+static inline mt_index lowest_corner(const mt_index *next_side, mt_index begin, mt_index end)
+{
+    mt_index lowest = begin;
+    for (mt_index c = begin; c < end; c++) {
+        lowest = next_side[c] < lowest ? next_side[c] : lowest;
+    }
+    return lowest;
+}
+
+/* Some faces: each is joined to its lowest neighbour, and then hangs at that one's parent, which is a root or before
+ * `begin`. */
+static inline mt_index link_faces(const joining *job, mt_index begin, mt_index end, bool triangles)
+{
+    const mt_index *next_side = job->pairs->next_side;
+    mt_index *parent = job->parent;
+    mt_index unions = 0;
+    for (mt_index face = begin; face < end; face++) {
+        mt_index first = triangles ? 3 * face : mt_mesh_face_begin(job->mesh, face);
+        mt_index last = triangles ? first + 3 : mt_mesh_face_end(job->mesh, face);
+        mt_index lowest = lowest_corner(next_side, first, last);
+        mt_index above = triangles ? lowest / 3 : face_of(job, lowest);
+        unions += above != face;
+        parent[face] = above;
+        parent[face] = above < begin ? above : parent[above];
+    }
+    return unions;
+}
+
 static void link_range(joining *job, mt_index range)
 {
     uint64_t face_count = job->mesh->face_count;
     mt_index begin = (mt_index)(face_count * range / job->range_count);
     mt_index end = (mt_index)(face_count * (range + 1) / job->range_count);
-    const mt_index *next_side = job->pairs->next_side;
-    mt_index *parent = job->parent;
-    mt_index unions = 0;
-    for (mt_index face = begin; face < end; face++) {
-        mt_index lowest = mt_mesh_face_begin(job->mesh, face);
-        mt_index last = mt_mesh_face_end(job->mesh, face);
-        for (mt_index c = lowest; c < last; c++) {
-            lowest = next_side[c] < lowest ? next_side[c] : lowest; /* MT_NONE, of a side a = b, is above all */
-        }
-        mt_index above = face_of(job, lowest);
-        unions += above != face;
-        parent[face] = above < begin || above == face ? above : parent[above];
-    }
-    job->range_unions[range] = unions;
+    bool triangles = !job->mesh->face_offsets && job->mesh->face_size == 3;
+    job->range_unions[range] = triangles ? link_faces(job, begin, end, true) : link_faces(job, begin, end, false);
 }
 
 static void link_ranges(void *user, uint64_t begin, uint64_t end)
