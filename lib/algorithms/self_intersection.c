@@ -7,7 +7,7 @@
  *
  * Cost: the tree (56 bytes a triangle), the positions in double, and the pairs. A mesh in which very many triangles
  * overlap has that many pairs: MT_ERROR_TOO_LARGE past 2^31. */
-#include "lib/algorithms/triangle_triangle.h"
+#include "lib/algorithms/triangle_plane.h"
 
 #include <meshtool/aabb_tree.h>
 #include <meshtool/self_intersection.h>
@@ -28,8 +28,10 @@ typedef struct search {
     mt_context *context;
     const mt_mesh *mesh;
     const mt_triangulation *triangulation;
-    mt_vec3 *points; /* scaled positions */
+    const mt_vec3 *points; /* scaled positions, the mesh's own where they are fit */
+    mt_vec3 *scaled;       /* NULL when those are */
     double scale;
+    double reach;  /* no two points differ more in a coordinate */
     uint8_t *skip; /* per triangle: of zero area */
     bool only_first;
     atomic_bool found;
@@ -61,10 +63,8 @@ static void measure(const mt_mesh *mesh, double *smallest, double *largest)
     }
 }
 
-static double exact_scale(const mt_mesh *mesh)
+static double exact_scale(double smallest, double largest)
 {
-    double smallest, largest;
-    measure(mesh, &smallest, &largest);
     if (largest > 0x1p-100 && largest < 0x1p100) {
         return 1;
     }
@@ -72,12 +72,34 @@ static double exact_scale(const mt_mesh *mesh)
     return scale > 1 || smallest * scale > 0x1p-1000 ? scale : 1;
 }
 
+static void choose_scale(search *job)
+{
+    double smallest, largest;
+    measure(job->mesh, &smallest, &largest);
+    job->scale = exact_scale(smallest, largest);
+    job->reach = 2 * largest * job->scale;
+}
+
 static void scale_points(void *user, uint64_t begin, uint64_t end)
 {
     search *job = user;
     for (uint64_t i = begin; i < end; i++) {
-        job->points[i] = mt_vec3_scale(mt_mesh_position(job->mesh, (mt_index)i), job->scale);
+        job->scaled[i] = mt_vec3_scale(mt_mesh_position(job->mesh, (mt_index)i), job->scale);
     }
+}
+
+static bool find_points(search *job)
+{
+    if (job->mesh->position_type == MT_F64 && job->scale == 1) {
+        job->points = job->mesh->positions;
+        return true;
+    }
+    job->scaled = mt_allocate_array(job->context, job->mesh->vertex_count, sizeof *job->scaled);
+    job->points = job->scaled;
+    if (job->scaled) {
+        mt_parallel_for(job->context, job->mesh->vertex_count, 65536, scale_points, job);
+    }
+    return job->scaled;
 }
 
 static void mark_zero_area(void *user, uint64_t begin, uint64_t end)
@@ -116,26 +138,37 @@ static bool keep_pair(search *job, pair_list *list, mt_index face, mt_index othe
     return true;
 }
 
+/* False when there is no memory for the pair. */
+static bool decide_pair(search *job, mt_index task, mt_primitive_pair pair, const indexed_triangle *a,
+                        const indexed_triangle *b)
+{
+    triangle_plane plane = triangle_plane_make(b->points, job->reach);
+    mt_index face = mt_triangulation_face(job->triangulation, pair.a);
+    mt_index other = mt_triangulation_face(job->triangulation, pair.b);
+    if (face == other || triangle_plane_parts(&plane, b, a) || !mt_triangles_intersect(a, b)) {
+        return true;
+    }
+    atomic_store_explicit(&job->found, true, memory_order_relaxed);
+    return keep_pair(job, &job->lists[task], face, other);
+}
+
+/* Pairs of one triangle come one after the other; its plane rules out most of them. */
 static bool decide_pairs(void *user, mt_index task, const mt_primitive_pair *pairs, size_t count)
 {
     search *job = user;
     if (job->only_first && atomic_load_explicit(&job->found, memory_order_relaxed)) {
         return false;
     }
+    indexed_triangle a, b;
+    triangle_plane plane;
     for (size_t i = 0; i < count; i++) {
-        mt_index face = mt_triangulation_face(job->triangulation, pairs[i].a);
-        mt_index other = mt_triangulation_face(job->triangulation, pairs[i].b);
-        indexed_triangle a, b;
-        if (face == other) {
-            continue;
+        if (i == 0 || pairs[i].a != pairs[i - 1].a) {
+            load_triangle(job, pairs[i].a, &a);
+            plane = triangle_plane_make(a.points, job->reach);
         }
-        load_triangle(job, pairs[i].a, &a);
         load_triangle(job, pairs[i].b, &b);
-        if (mt_triangles_intersect(&a, &b)) {
-            atomic_store_explicit(&job->found, true, memory_order_relaxed);
-            if (!keep_pair(job, &job->lists[task], face, other)) {
-                return false;
-            }
+        if (!triangle_plane_parts(&plane, &a, &b) && !decide_pair(job, task, pairs[i], &a, &b)) {
+            return false;
         }
     }
     return true;
@@ -194,7 +227,6 @@ static mt_status search_with_tree(search *job, mt_self_intersections *out)
 {
     mt_context *context = job->context;
     mt_aabb_tree *tree;
-    mt_parallel_for(context, job->mesh->vertex_count, 65536, scale_points, job);
     mt_parallel_for(context, job->triangulation->triangle_count, 16384, mark_zero_area, job);
     mt_status status = mt_aabb_tree_create(context, job->mesh, job->triangulation, job->skip, &tree);
     if (status != MT_OK) {
@@ -222,15 +254,14 @@ static mt_status run_search(search *job, mt_self_intersections *out)
         return status;
     }
     job->triangulation = &triangulation;
-    job->scale = exact_scale(job->mesh);
-    job->points = mt_allocate_array(context, job->mesh->vertex_count, sizeof *job->points);
+    choose_scale(job);
     job->skip = mt_allocate(context, triangulation.triangle_count);
-    status = job->points && job->skip ? search_with_tree(job, out) : MT_ERROR_OUT_OF_MEMORY;
+    status = job->skip && find_points(job) ? search_with_tree(job, out) : MT_ERROR_OUT_OF_MEMORY;
     for (size_t task = 0; task < MT_PAIR_TASKS_MAXIMUM; task++) {
         mt_free(context, job->lists[task].pairs);
     }
     mt_free(context, job->skip);
-    mt_free(context, job->points);
+    mt_free(context, job->scaled);
     mt_triangulation_release(context, &triangulation);
     return status;
 }

@@ -11,16 +11,13 @@ typedef struct boxing {
     mt_aabb_primitive *primitives; /* one a triangle; number MT_NONE: left out */
 } boxing;
 
-/* The next float below or above, where rounding went past x; quicker than nextafterf, and zero steps to the smallest
- * subnormal on either side. */
-static float step(float f, bool up)
+/* The float so many steps above, 1, 0 or -1. Rounding leaves zeros their sign, so that none is stepped over. Half of
+ * all roundings go past x, at random, so nothing here may branch. */
+static float step(float f, int32_t steps)
 {
     int32_t bits;
     memcpy(&bits, &f, sizeof bits);
-    if (f == 0) {
-        return up ? 0x1p-149f : -0x1p-149f;
-    }
-    bits += (bits < 0) == up ? -1 : 1;
+    bits += bits < 0 ? -steps : steps;
     memcpy(&f, &bits, sizeof f);
     return f;
 }
@@ -28,13 +25,13 @@ static float step(float f, bool up)
 static float round_down(double x)
 {
     float f = (float)x;
-    return (double)f > x ? step(f, false) : f;
+    return step(f, -((double)f > x));
 }
 
 static float round_up(double x)
 {
     float f = (float)x;
-    return (double)f < x ? step(f, true) : f;
+    return step(f, (double)f < x);
 }
 
 static double smallest(const double x[3])
