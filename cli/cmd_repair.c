@@ -11,6 +11,7 @@ typedef struct repair_settings {
     cli_common common;
     bool steps[MT_REPAIR_STEP_COUNT];
     bool all;
+    unsigned max_hole;
     double tolerance;
 } repair_settings;
 
@@ -34,7 +35,17 @@ static const cli_option options[] = {
      STEP(MT_REPAIR_SPLIT),
      .help = "copy vertices until every edge has two faces at most and every vertex one fan"},
     {.name = "orient", STEP(MT_REPAIR_ORIENT), .help = "turn faces alike, closed parts outwards"},
-    {.name = "fill-holes", STEP(MT_REPAIR_FILL_HOLES), .help = "close boundary loops with triangles"},
+    {.name = "fill-holes",
+     STEP(MT_REPAIR_FILL_HOLES),
+     .help = "close boundary loops with triangles, the rims of open sheets too unless the sheet is flat"},
+    {.name = "max-hole",
+     .offset = offsetof(repair_settings, max_hole),
+     .parse = cli_parse_count,
+     .argument = "SIDES",
+     .expects = "a whole number from 3 on",
+     .minimum = 3,
+     .maximum = MT_INDEX_MAX,
+     .help = "fill only loops of at most so many sides (implies --fill-holes)"},
     {.name = "drop-isolated", STEP(MT_REPAIR_DROP_ISOLATED), .help = "drop vertices that no face, wire or point uses"},
     {.name = "all", .offset = offsetof(repair_settings, all), .help = "all of these, welding exactly"},
     {0},
@@ -50,7 +61,8 @@ static const struct {
     [MT_REPAIR_SPLIT] = {"added", "vertex", ", to part surfaces that met in an edge or a point", "", ""},
     [MT_REPAIR_ORIENT] = {"turned", "face", "", "component", " as it was: no turning of faces orients all of it"},
     [MT_REPAIR_FILL_HOLES] = {"filled", "hole", "", "part",
-                              " of the boundary open: triangles there would be a new defect"},
+                              " of the boundary open: the rim of a flat sheet, more sides than --max-hole, or "
+                              "where triangles would be a new defect"},
     [MT_REPAIR_DROP_ISOLATED] = {"dropped", "isolated vertex", "", "", ""},
 };
 
@@ -178,11 +190,12 @@ static cli_exit write_and_tell(const cli_job *job, const mt_mesh *mesh, const mt
 
 static mt_repair_options choose_steps(const repair_settings *settings)
 {
-    mt_repair_options chosen = {.weld_tolerance = settings->tolerance};
+    mt_repair_options chosen = {.weld_tolerance = settings->tolerance, .hole_sides_maximum = settings->max_hole};
     for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
         chosen.steps[step] = settings->steps[step] || settings->all;
     }
     chosen.steps[MT_REPAIR_WELD] = chosen.steps[MT_REPAIR_WELD] || settings->tolerance > 0;
+    chosen.steps[MT_REPAIR_FILL_HOLES] = chosen.steps[MT_REPAIR_FILL_HOLES] || settings->max_hole > 0;
     return chosen;
 }
 

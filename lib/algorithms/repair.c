@@ -8,17 +8,18 @@
 typedef struct step_record {
     const char *key;
     const char *option;
-    mt_status (*run)(repair_state *state, mt_repair_result *result); /* NULL: weld, which takes a tolerance */
+    mt_status (*run)(repair_state *state, mt_repair_result *result);
+    mt_status (*run_with)(repair_state *state, const mt_repair_options *options, mt_repair_result *result);
 } step_record;
 
 static const step_record steps[MT_REPAIR_STEP_COUNT] = {
-    [MT_REPAIR_WELD] = {"weld", "weld", NULL},
-    [MT_REPAIR_DROP_DEGENERATE] = {"drop_degenerate", "drop-degenerate", mt_repair_drop_degenerate},
-    [MT_REPAIR_DROP_DUPLICATES] = {"drop_duplicates", "drop-duplicates", mt_repair_drop_duplicates},
-    [MT_REPAIR_SPLIT] = {"split", "split", mt_repair_split},
-    [MT_REPAIR_ORIENT] = {"orient", "orient", mt_repair_orient},
-    [MT_REPAIR_FILL_HOLES] = {"fill_holes", "fill-holes", mt_repair_fill_holes},
-    [MT_REPAIR_DROP_ISOLATED] = {"drop_isolated", "drop-isolated", mt_repair_drop_isolated},
+    [MT_REPAIR_WELD] = {"weld", "weld", NULL, mt_repair_weld},
+    [MT_REPAIR_DROP_DEGENERATE] = {"drop_degenerate", "drop-degenerate", mt_repair_drop_degenerate, NULL},
+    [MT_REPAIR_DROP_DUPLICATES] = {"drop_duplicates", "drop-duplicates", mt_repair_drop_duplicates, NULL},
+    [MT_REPAIR_SPLIT] = {"split", "split", mt_repair_split, NULL},
+    [MT_REPAIR_ORIENT] = {"orient", "orient", mt_repair_orient, NULL},
+    [MT_REPAIR_FILL_HOLES] = {"fill_holes", "fill-holes", NULL, mt_repair_fill_holes},
+    [MT_REPAIR_DROP_ISOLATED] = {"drop_isolated", "drop-isolated", mt_repair_drop_isolated, NULL},
 };
 
 const char *mt_repair_step_key(mt_repair_step step)
@@ -42,7 +43,7 @@ static mt_status run_steps(repair_state *state, const mt_repair_options *options
         mt_status status = mt_progress(state->context, "repairing", (double)step / MT_REPAIR_STEP_COUNT);
         int part = mt_part_begin(state->context, steps[step].option, "asked for");
         if (status == MT_OK) {
-            status = steps[step].run ? steps[step].run(state, result) : mt_repair_weld(state, options, result);
+            status = steps[step].run ? steps[step].run(state, result) : steps[step].run_with(state, options, result);
         }
         mt_part_end(state->context, part);
         if (status != MT_OK) {

@@ -2,9 +2,11 @@
  *
  * A loop is walked from boundary side to boundary side about the fan between them, so that loops which touch at a
  * vertex stay apart. Left alone are loops that meet a non-manifold or misoriented edge on the way, the rim of a face
- * that stands alone (it would get itself as a duplicate), loops through a vertex twice, and those that no triangulation
- * fills without a taken edge or a triangle without area. */
+ * that stands alone (it would get itself as a duplicate) or of a flat sheet (the triangles would lie on its faces),
+ * loops through a vertex twice, and those that no triangulation fills without a taken edge or a triangle without area.
+ */
 #include "lib/algorithms/edge_set.h"
+#include "lib/algorithms/flat_components.h"
 #include "lib/algorithms/hole_triangulation.h"
 #include "lib/algorithms/repair_state.h"
 
@@ -19,7 +21,11 @@ typedef struct index_list {
 
 typedef struct hole_job {
     repair_state *state;
+    const mt_repair_options *options;
     const mt_edge_pairs *pairs;
+    mt_components *components;
+    uint8_t *flat;       /* components */
+    double scale;        /* a power of two that brings coordinates to 1 */
     edge_set edges;      /* between boundary vertices */
     uint8_t *visited;    /* corners */
     uint32_t *last_loop; /* per vertex the number of the last loop through it */
@@ -98,6 +104,32 @@ static mt_status walk_loop(hole_job *job, mt_index first, bool *good)
     return MT_OK;
 }
 
+/* Twice the area vector of a polygon, about its first vertex, with coordinates scaled. */
+static mt_vec3 area_vector(const mt_mesh *mesh, const mt_index *vertices, uint64_t count, double scale)
+{
+    mt_vec3 origin = mt_vec3_scale(mt_mesh_position(mesh, vertices[0]), scale);
+    mt_vec3 sum = {0, 0, 0}, before = {0, 0, 0};
+    for (uint64_t i = 1; i < count; i++) {
+        mt_vec3 point = mt_vec3_subtract(mt_vec3_scale(mt_mesh_position(mesh, vertices[i]), scale), origin);
+        sum = mt_vec3_add(sum, mt_vec3_cross(before, point));
+        before = point;
+    }
+    return sum;
+}
+
+/* Whether the loop goes around its flat component, not around a hole in it: filled it would look the other way. */
+static bool is_rim_of_sheet(const hole_job *job, mt_index corner)
+{
+    const mt_mesh *mesh = job->state->mesh;
+    mt_index face = mt_mesh_corner_face(mesh, corner), begin = mt_mesh_face_begin(mesh, face);
+    if (!job->flat[job->components->face_component[face]]) {
+        return false;
+    }
+    mt_vec3 side = area_vector(mesh, mesh->corner_vertices + begin, mt_mesh_face_sides(mesh, face), job->scale);
+    mt_vec3 loop = area_vector(mesh, job->loop.numbers, job->loop.count, job->scale);
+    return mt_vec3_dot(side, loop) > 0; /* the loop still runs as the faces do */
+}
+
 static void reverse(index_list *list)
 {
     for (uint64_t i = 0, j = list->count; i + 1 < j; i++) {
@@ -133,9 +165,13 @@ static mt_status fill_loop(hole_job *job, mt_index first)
     mt_context *context = job->state->context;
     bool good;
     mt_status status = walk_loop(job, first, &good);
-    if (status != MT_OK || !good) {
-        job->result->left_count += !good;
+    if (status != MT_OK) {
         return status;
+    }
+    mt_index most = job->options->hole_sides_maximum;
+    if (!good || (most && job->loop.count > most) || is_rim_of_sheet(job, first)) {
+        job->result->left_count++;
+        return MT_OK;
     }
     reverse(&job->loop);
     mt_index *local = mt_allocate_array(context, 3 * (job->loop.count - 2), sizeof *local);
@@ -232,6 +268,20 @@ static mt_status add_faces(repair_state *state, const index_list *triangles, mt_
     return status;
 }
 
+static mt_status find_sheets(hole_job *job)
+{
+    mt_context *context = job->state->context;
+    mt_bounds bounds = mt_mesh_bounds(job->state->mesh);
+    job->scale = mt_power_of_two_scale(fmax(mt_vec3_max_abs(bounds.minimum), mt_vec3_max_abs(bounds.maximum)));
+    mt_status status = mt_components_create(context, job->state->mesh, job->pairs, true, &job->components);
+    if (status != MT_OK) {
+        return status;
+    }
+    job->flat = mt_allocate(context, job->components->component_count);
+    return job->flat ? mt_find_flat_components(context, job->state->mesh, job->components, job->flat)
+                     : MT_ERROR_OUT_OF_MEMORY;
+}
+
 static mt_status fill_all(hole_job *job)
 {
     const mt_mesh *mesh = job->state->mesh;
@@ -242,7 +292,10 @@ static mt_status fill_all(hole_job *job)
         return MT_ERROR_OUT_OF_MEMORY;
     }
     memset(job->last_loop, 0xff, mesh->vertex_count * sizeof *job->last_loop);
-    mt_status status = collect_edges(job);
+    mt_status status = find_sheets(job);
+    if (status == MT_OK) {
+        status = collect_edges(job);
+    }
     for (mt_index corner = 0; status == MT_OK && corner < mesh->corner_count; corner++) {
         bool is_boundary = mt_edge_class_of(mesh, job->pairs, corner) == MT_EDGE_BOUNDARY;
         if (is_boundary && !job->visited[corner]) {
@@ -255,7 +308,7 @@ static mt_status fill_all(hole_job *job)
     return status;
 }
 
-mt_status mt_repair_fill_holes(repair_state *state, mt_repair_result *result)
+mt_status mt_repair_fill_holes(repair_state *state, const mt_repair_options *options, mt_repair_result *result)
 {
     mt_context *context = state->context;
     mt_edge_pairs *pairs;
@@ -263,9 +316,11 @@ mt_status mt_repair_fill_holes(repair_state *state, mt_repair_result *result)
     if (status != MT_OK) {
         return status;
     }
-    hole_job job = {.state = state, .pairs = pairs, .result = result};
+    hole_job job = {.state = state, .options = options, .pairs = pairs, .result = result};
     status = fill_all(&job);
     mt_edge_set_release(context, &job.edges);
+    mt_components_destroy(context, job.components);
+    mt_free(context, job.flat);
     mt_free(context, job.visited);
     mt_free(context, job.last_loop);
     mt_free(context, job.loop.numbers);

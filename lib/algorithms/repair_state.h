@@ -39,7 +39,7 @@ mt_status mt_repair_drop_degenerate(repair_state *state, mt_repair_result *resul
 mt_status mt_repair_drop_duplicates(repair_state *state, mt_repair_result *result);
 mt_status mt_repair_split(repair_state *state, mt_repair_result *result);
 mt_status mt_repair_orient(repair_state *state, mt_repair_result *result);
-mt_status mt_repair_fill_holes(repair_state *state, mt_repair_result *result);
+mt_status mt_repair_fill_holes(repair_state *state, const mt_repair_options *options, mt_repair_result *result);
 mt_status mt_repair_drop_isolated(repair_state *state, mt_repair_result *result);
 
 #endif

@@ -27,6 +27,13 @@ run 0 repair "$folder/open.off" -o "$folder/closed.off" --fill-holes
 prints "filled 1 hole"
 prints "Now it is manifold and closed."
 run 0 check-manifold "$folder/closed.off" --closed --oriented
+run 0 repair "$folder/open.off" -o "$folder/x.off" --max-hole 4
+prints "filled 1 hole"
+run 0 repair "$folder/open.off" -o "$folder/x.off" --max-hole 3
+prints "left 1 part of the boundary open: "
+run 2 repair "$folder/open.off" -o "$folder/x.off" --max-hole 2
+run 0 repair meshes/valid/grid.obj -o "$folder/x.off" --all
+prints "the rim of a flat sheet"
 
 # What the errors of other commands promise.
 run 0 repair "$folder/bowtie.off" -o "$folder/parted.off" --split

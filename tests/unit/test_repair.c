@@ -317,6 +317,47 @@ static void each_failing_allocation_is_clean(void **state)
     test_context_end(makers);
 }
 
+/* A grid of 6 x 6 squares without the inner four: its hole is filled, its rim would be covered by its own faces. Bent,
+ * it is filled at both, unless that takes too many sides. */
+static void flat_sheets_keep_their_rims(void **state)
+{
+    (void)state;
+    static const struct {
+        double height;
+        mt_index most;
+        uint64_t filled, left;
+    } cases[] = {{0, 0, 1, 1}, {1e-15, 0, 2, 0}, {1, 0, 2, 0}, {1, 8, 1, 1}, {0, 8, 1, 1}, {1, 7, 0, 2}, {1, 24, 2, 0}};
+    mt_context *context = test_context();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double positions[3 * 49];
+        mt_index faces[5 * 32], face_count = 0;
+        for (mt_index v = 0; v < 49; v++) {
+            positions[3 * v] = v % 7;
+            positions[3 * v + 1] = 5; /* not through the origin */
+            positions[3 * v + 2] = v / 7;
+        }
+        positions[1] += cases[i].height;
+        for (mt_index cell = 0; cell < 36; cell++) {
+            mt_index column = cell % 6, row = cell / 6, v = 7 * row + column;
+            if (column < 2 || column > 3 || row < 2 || row > 3) {
+                const mt_index face[] = {4, v, v + 1, v + 8, v + 7};
+                memcpy(faces + 5 * face_count++, face, sizeof face);
+            }
+        }
+        mt_mesh *mesh = test_mesh(context, 49, positions, face_count, faces);
+        mt_repair_options options = only(MT_REPAIR_FILL_HOLES);
+        options.hole_sides_maximum = cases[i].most;
+        mt_repair_report report;
+        mt_mesh *mended = repair_with(context, mesh, options, &report);
+        assert_int_equal(report.results[MT_REPAIR_FILL_HOLES].count, cases[i].filled);
+        assert_int_equal(report.results[MT_REPAIR_FILL_HOLES].left_count, cases[i].left);
+        mt_repair_report_release(context, &report);
+        mt_mesh_destroy(context, mended);
+        mt_mesh_destroy(context, mesh);
+    }
+    test_context_end(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -330,6 +371,7 @@ int main(void)
         cmocka_unit_test(welding_within_a_distance_joins_the_first),
         cmocka_unit_test(everything_at_once_mends_any_soup_for_good),
         cmocka_unit_test(any_steps_twice_are_as_once),
+        cmocka_unit_test(flat_sheets_keep_their_rims),
         cmocka_unit_test(each_failing_allocation_is_clean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

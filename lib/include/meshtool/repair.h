@@ -16,7 +16,7 @@ typedef enum mt_repair_step {
     MT_REPAIR_DROP_DUPLICATES, /* faces with the vertices of an earlier face, in the same order or the reverse */
     MT_REPAIR_SPLIT,           /* vertices are copied until no edge has three faces and no vertex two fans */
     MT_REPAIR_ORIENT,          /* neighbours run alike, and closed components outwards */
-    MT_REPAIR_FILL_HOLES,      /* boundary loops get triangles */
+    MT_REPAIR_FILL_HOLES,      /* boundary loops get triangles, but for the rim of a flat sheet: they would lie on it */
     MT_REPAIR_DROP_ISOLATED,   /* vertices in no face, wire or point */
     MT_REPAIR_STEP_COUNT
 } mt_repair_step;
@@ -30,6 +30,7 @@ typedef struct mt_repair_options {
     bool steps[MT_REPAIR_STEP_COUNT];
     double weld_tolerance; /* 0: only bit-equal positions; else the largest distance, in the mesh's units, at which a
                               vertex joins an earlier one */
+    mt_index hole_sides_maximum; /* loops of more sides stay open; 0: none does for that */
 } mt_repair_options;
 
 /* What a step did. `count` is what it changed: vertices welded away, faces dropped or turned, vertices made by copying,
@@ -38,8 +39,8 @@ typedef struct mt_repair_options {
 typedef struct mt_repair_result {
     bool asked;
     uint64_t count;
-    uint64_t left_count; /* what the step met and could not mend: components that no turning orients, holes that no
-                            triangles fill without a new defect */
+    uint64_t left_count; /* what the step met and could not mend: components that no turning orients, boundary loops
+                            that are too long, or that no triangles fill without a new defect */
     uint64_t face_count, vertex_count;
     mt_index *faces;
     mt_index *vertices;
