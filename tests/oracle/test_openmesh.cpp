@@ -1,6 +1,11 @@
-// Half-edges beside OpenMesh's. What we build, OpenMesh must hold whole, with the same edges, boundary loops, valences
-// and components; where OpenMesh drops faces in silence, which is printed by name, we must have refused.
+// Our structures beside OpenMesh's half-edges. What we build, OpenMesh must hold whole, with the same edges, boundary
+// loops, valences and components; where OpenMesh drops faces in silence, which is printed by name, we must have
+// refused.
 #include "tests/oracle/mesh_files.hpp"
+
+extern "C" {
+#include "tests/support/connectivity.h"
+}
 
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/System/omstream.hh>
@@ -89,25 +94,65 @@ std::size_t count_components(const OpenMeshMesh &theirs)
     return components;
 }
 
-bool same_rings(const mt_halfedge_mesh *ours, const OpenMeshMesh &theirs)
+using Spokes = std::vector<std::pair<mt_index, mt_index>>; // a neighbour, and the face after it counter-clockwise
+
+Spokes spokes_of(const OpenMeshMesh &theirs, mt_index vertex)
 {
-    for (mt_index v = 0; v < ours->vertex_count; v++) {
-        OpenMeshMesh::VertexHandle handle(static_cast<int>(v));
-        std::multiset<mt_index> mine, other;
-        mt_index begin = ours->vertex_halfedge[v];
-        for (mt_index h = begin; h != MT_NONE;) {
-            mine.insert(mt_halfedge_tail(ours, h));
-            h = mt_halfedge_clockwise(ours, h);
-            h = h == begin ? MT_NONE : h;
-        }
-        for (auto around : theirs.vv_range(handle)) {
-            other.insert(static_cast<mt_index>(around.idx()));
-        }
-        if (mine != other) {
-            return false;
+    Spokes spokes;
+    if (theirs.is_isolated(OpenMeshMesh::VertexHandle(static_cast<int>(vertex)))) {
+        return spokes; // its range would not be empty
+    }
+    for (auto h : theirs.voh_ccw_range(OpenMeshMesh::VertexHandle(static_cast<int>(vertex)))) {
+        spokes.emplace_back(static_cast<mt_index>(theirs.to_vertex_handle(h).idx()),
+                            static_cast<mt_index>(theirs.face_handle(h).idx())); // -1: MT_NONE
+    }
+    return spokes;
+}
+
+// In the same order, wherever they begin.
+bool same_but_for_begin(const Spokes &a, const Spokes &b)
+{
+    Spokes twice = b;
+    twice.insert(twice.end(), b.begin(), b.end());
+    return a.size() == b.size() &&
+           (a.empty() || std::search(twice.begin(), twice.end(), a.begin(), a.end()) != twice.end());
+}
+
+bool same_rings(const test_structure &kind, const void *ours, const OpenMeshMesh &theirs)
+{
+    static test_ring ring;
+    for (mt_index vertex = 0; vertex < theirs.n_vertices(); vertex++) {
+        Spokes expected = spokes_of(theirs, vertex), reversed;
+        for (bool clockwise : {false, true}) {
+            ring.count = 0;
+            kind.vertex_ring(ours, vertex, clockwise, &ring);
+            Spokes mine;
+            for (mt_index i = 0; i < ring.count; i++) {
+                mine.emplace_back(ring.spokes[i].neighbor, ring.spokes[i].face);
+            }
+            if (clockwise) {
+                std::reverse(mine.begin(), mine.end());
+            }
+            if (!same_but_for_begin(mine, expected)) {
+                return false;
+            }
         }
     }
     return true;
+}
+
+// Every structure holds what OpenMesh holds, with the same neighbours and faces in the same order around each vertex.
+void compare_rings(mt_context *context, const mt_mesh *mesh, const OpenMeshMesh &theirs, const std::string &name)
+{
+    bool triangles = !mesh->face_offsets && mesh->face_size == 3;
+    for (const test_structure &kind : test_structures) {
+        void *ours = nullptr;
+        if (!kind.triangles_only || triangles) {
+            tally.expect(kind.create(context, mesh, &ours) == MT_OK, name + ": " + kind.name + " is built");
+            tally.expect(same_rings(kind, ours, theirs), name + ": " + kind.name + ", rings of every vertex");
+            kind.destroy(context, ours);
+        }
+    }
 }
 
 void compare_structures(mt_context *context, const mt_mesh *mesh, const mt_halfedge_mesh *ours,
@@ -115,7 +160,7 @@ void compare_structures(mt_context *context, const mt_mesh *mesh, const mt_halfe
 {
     tally.expect_equal(ours->halfedge_count / 2, theirs.n_edges(), name + ": edges");
     tally.expect_equal(count_loops(ours), count_loops(theirs), name + ": boundary loops");
-    tally.expect(same_rings(ours, theirs), name + ": neighbours of every vertex");
+    compare_rings(context, mesh, theirs, name);
     mt_manifold_report report;
     tally.expect(mt_check_manifold(context, mesh, nullptr, &report) == MT_OK, name + ": the check runs");
     tally.expect_equal(report.component_count, count_components(theirs), name + ": components");
@@ -165,6 +210,16 @@ mt_mesh *random_patch(mt_context *context, std::mt19937 &random)
     layout.vertex_count = (columns + 1) * (rows + 1);
     layout.face_count = corners.size() / 4;
     layout.face_size = 4;
+    if (random() % 2) { // each square as two triangles
+        std::vector<mt_index> squares;
+        squares.swap(corners);
+        for (std::size_t c = 0; c < squares.size(); c += 4) {
+            corners.insert(corners.end(),
+                           {squares[c], squares[c + 1], squares[c + 2], squares[c], squares[c + 2], squares[c + 3]});
+        }
+        layout.face_count *= 2;
+        layout.face_size = 3;
+    }
     layout.position_type = MT_F64;
     mt_mesh *mesh = nullptr;
     mt_mesh_create(context, &layout, &mesh);
