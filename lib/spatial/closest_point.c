@@ -130,6 +130,9 @@ MT_INLINE uint32_t filter_elements(const nearest_walk *walk, const float *rows, 
 
 MT_INLINE void visit_leaf(nearest_walk *walk, uint32_t child)
 {
+    if (child == MT_SURFACE_UNUSED) { /* infinitely far, which counts while nothing nearer is known */
+        return;
+    }
     mt_index count = mt_surface_leaf_count(child);
     const float *rows = mt_leaf_rows(walk->tree, child);
     uint32_t bits = filter_elements(walk, rows, count) & ((1u << count) - 1);

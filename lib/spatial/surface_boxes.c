@@ -147,7 +147,7 @@ mt_status mt_surface_boxes_create(mt_context *context, mt_surface_tree *tree, mt
     for (size_t i = 0; i < range_count; i++) {
         room += tree->elements & ranges[i].kind ? ranges[i].end - ranges[i].begin : 0;
     }
-    if (room > (1u << MT_SURFACE_FIRST_BITS) || numbering->end > MT_INDEX_MAX) {
+    if (room >= (1u << MT_SURFACE_FIRST_BITS) || numbering->end > MT_INDEX_MAX) {
         return mt_fail(context, MT_ERROR_TOO_LARGE,
                        "the mesh has %llu elements, a tree of boxes holds at most %u; split the mesh",
                        (unsigned long long)room, 1u << MT_SURFACE_FIRST_BITS);

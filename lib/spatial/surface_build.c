@@ -94,7 +94,7 @@ static void clear_node(mt_surface_node *node)
             node->planes[2 * axis][slot] = INFINITY;
             node->planes[2 * axis + 1][slot] = -INFINITY;
         }
-        node->children[slot] = MT_SURFACE_LEAF;
+        node->children[slot] = MT_SURFACE_UNUSED;
     }
 }
 

@@ -23,6 +23,9 @@
 #define MT_SURFACE_LEAF 0x80000000u
 #define MT_SURFACE_FIRST_BITS 28
 
+/* A child that is not there: no leaf begins so late. */
+#define MT_SURFACE_UNUSED UINT32_MAX
+
 static inline uint32_t mt_surface_leaf(mt_index first, mt_index count)
 {
     return MT_SURFACE_LEAF | (count - 1) << MT_SURFACE_FIRST_BITS | first;

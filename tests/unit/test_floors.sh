@@ -10,7 +10,7 @@ declare -A public_floor=(
     [edge_pairs]=topology [halfedge]=topology
     [ray]=spatial [closest_point]=spatial [surface_tree]=spatial
     [image]=image
-    [manifold]=algorithms [subdivide]=algorithms
+    [deviation]=algorithms [signed_distance]=algorithms [manifold]=algorithms [subdivide]=algorithms
     [preview]=render
     [meshtool]=umbrella
 )

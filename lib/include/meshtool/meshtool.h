@@ -44,9 +44,11 @@
 #include <meshtool/surface_tree.h>  /* a wide tree for rays and closest points */
 
 /* Algorithms */
+#include <meshtool/deviation.h>         /* how far two meshes lie apart */
 #include <meshtool/manifold.h>          /* the check that finds everything */
 #include <meshtool/repair.h>            /* mending, with an account */
 #include <meshtool/self_intersection.h> /* faces that meet where they should not, decided exactly */
+#include <meshtool/signed_distance.h>   /* negative inside */
 #include <meshtool/subdivide.h>         /* Catmull-Clark */
 
 /* Pictures */
