@@ -1,6 +1,7 @@
 // Catmull-Clark beside OpenSubdiv's Far: every rule by a named case, at levels 1 to 4, in both precisions.
 #include "tests/oracle/mesh_files.hpp"
 #include "tests/oracle/opensubdiv.hpp"
+#include "tests/oracle/opensubdiv_limit.hpp"
 
 #include <functional>
 #include <random>
@@ -88,6 +89,33 @@ mt_mesh *mesh_of(mt_context *context, const Cage &cage, mt_type type)
     return mesh;
 }
 
+struct Compared {
+    std::size_t positions = 0, normals = 0, left_out = 0;
+} limits;
+
+// Of the last level, which `match` follows.
+void compare_limit(mt_context *context, const std::string &name, const mt_mesh *mesh, mt_subdivide_options options,
+                   const osd::Reference &reference, const osd::Match &match, double tolerance)
+{
+    mt_mesh *ours = nullptr;
+    options.limit = true;
+    if (mt_subdivide(context, mesh, &options, &ours) != MT_OK) {
+        tally.expect(false, name + ": " + mt_context_error(context)->message);
+        mt_context_clear_error(context);
+        return;
+    }
+    osd::LimitDifference difference = osd::Limit(reference, int(options.level_count)).difference(ours, match);
+    tally.expect(difference.position <= tolerance,
+                 name + ": limits " + std::to_string(difference.position / tolerance) + " tolerances apart");
+    double tolerance_of_normals = tolerance * 1e3; // of a level's short edges, whose ends are rounded
+    tally.expect(difference.normal <= tolerance_of_normals,
+                 name + ": normals " + std::to_string(difference.normal / tolerance_of_normals) + " tolerances apart");
+    limits.positions += difference.positions;
+    limits.normals += difference.normals;
+    limits.left_out += difference.left_out;
+    mt_mesh_destroy(context, ours);
+}
+
 // Refines the mesh to each level at once, and follows Far's.
 void compare(mt_context *context, const std::string &name, const mt_mesh *mesh, mt_subdivide_options options,
              unsigned levels, double tolerance)
@@ -122,6 +150,9 @@ void compare(mt_context *context, const std::string &name, const mt_mesh *mesh, 
         }
         mt_mesh_destroy(context, before);
         before = refined;
+    }
+    if (before && options.level_count == levels) {
+        compare_limit(context, name + ", limit", mesh, options, reference, match, tolerance);
     }
     mt_mesh_destroy(context, before);
 }
@@ -390,5 +421,9 @@ int main()
     compare_triangles(context);
     compare_face_varying(context);
     mt_context_destroy(context);
+    std::printf("limits compared: %zu positions, %zu normals; %zu left out where Far's masks do not hold\n",
+                limits.positions, limits.normals, limits.left_out);
+    tally.expect(limits.positions > 20 * limits.left_out && limits.normals > 20 * limits.left_out,
+                 "most limits were compared");
     return tally.conclude();
 }
