@@ -1,5 +1,6 @@
-// One level of Catmull-Clark, beside OpenMesh and CGAL. The error is the largest distance between the moved old
-// vertices, whose order all three keep.
+// Catmull-Clark level by level, beside OpenSubdiv's Far (topology and values), OpenMesh, CGAL, and a bare copy of as
+// many bytes as must move. The error is the largest distance between the moved vertices of the cage, whose order all
+// keep. OpenMesh's and CGAL's meshes are built beforehand; the pairing of edges is in our time and in OpenSubdiv's.
 #include "tests/bench/bench.hpp"
 
 #include <CGAL/Simple_cartesian.h>
@@ -7,126 +8,261 @@
 #include <CGAL/subdivision_method_3.h>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
+#include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+#include <opensubdiv/far/topologyRefinerFactory.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
 
 namespace bench
 {
 namespace
 {
 
-struct DoubleTraits : OpenMesh::DefaultTraits {
-    using Point = OpenMesh::Vec3d;
-};
-using OpenMeshMesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
-using CgalMesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+template <class Real> using Point = std::array<Real, 3>;
 
-OpenMeshMesh openmesh_of(const mt_mesh *mesh)
+// One run of a peer: refines so many levels and returns the cage's vertices where they came to be.
+template <class Real> class OpenSubdivPeer
 {
-    OpenMeshMesh built;
-    std::vector<OpenMeshMesh::VertexHandle> handles;
-    for (mt_index v = 0; v < mesh->vertex_count; v++) {
-        mt_vec3 p = mt_mesh_position(mesh, v);
-        built.add_vertex(OpenMeshMesh::Point(p.x, p.y, p.z));
-    }
-    for (mt_index face = 0; face < mesh->face_count; face++) {
-        handles.clear();
-        for (mt_index c = mt_mesh_face_begin(mesh, face); c < mt_mesh_face_end(mesh, face); c++) {
-            handles.emplace_back(static_cast<int>(mesh->corner_vertices[c]));
+  public:
+    static constexpr const char *name = "OpenSubdiv";
+
+    explicit OpenSubdivPeer(const mt_mesh *mesh) : sides(mesh->face_count, static_cast<int>(mesh->face_size))
+    {
+        for (mt_index corner = 0; corner < mesh->corner_count; corner++) {
+            indices.push_back(static_cast<int>(mesh->corner_vertices[corner]));
         }
-        built.add_face(handles);
-    }
-    return built;
-}
-
-CgalMesh cgal_of(const mt_mesh *mesh)
-{
-    CgalMesh built;
-    std::vector<CgalMesh::Vertex_index> corners;
-    for (mt_index v = 0; v < mesh->vertex_count; v++) {
-        mt_vec3 p = mt_mesh_position(mesh, v);
-        built.add_vertex(CgalMesh::Point(p.x, p.y, p.z));
-    }
-    for (mt_index face = 0; face < mesh->face_count; face++) {
-        corners.clear();
-        for (mt_index c = mt_mesh_face_begin(mesh, face); c < mt_mesh_face_end(mesh, face); c++) {
-            corners.emplace_back(mesh->corner_vertices[c]);
+        for (mt_index v = 0; v < mesh->vertex_count; v++) {
+            mt_vec3 p = mt_mesh_position(mesh, v);
+            cage.push_back({{static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)}});
         }
-        built.add_face(corners);
+        descriptor.numVertices = static_cast<int>(mesh->vertex_count);
+        descriptor.numFaces = static_cast<int>(mesh->face_count);
+        descriptor.numVertsPerFace = sides.data();
+        descriptor.vertIndicesPerFace = indices.data();
     }
-    return built;
-}
 
-void refine_openmesh(OpenMeshMesh &mesh)
-{
-    OpenMesh::Subdivider::Uniform::CatmullClarkT<OpenMeshMesh, double> subdivider;
-    subdivider.attach(mesh);
-    subdivider(1);
-    subdivider.detach();
-}
-
-void refine_cgal(CgalMesh &mesh)
-{
-    CGAL::Subdivision_method_3::CatmullClark_subdivision(mesh, CGAL::parameters::number_of_iterations(1));
-}
-
-template <class Position> double largest_distance(const mt_mesh *refined, mt_index old_count, Position position)
-{
-    double largest = 0;
-    for (mt_index v = 0; v < old_count; v++) {
-        mt_vec3 p = mt_mesh_position(refined, v);
-        auto q = position(v);
-        largest = std::max({largest, std::abs(p.x - q[0]), std::abs(p.y - q[1]), std::abs(p.z - q[2])});
+    std::vector<Point<Real>> refine(unsigned levels) const
+    {
+        using Descriptor = OpenSubdiv::Far::TopologyDescriptor;
+        using Factory = OpenSubdiv::Far::TopologyRefinerFactory<Descriptor>;
+        OpenSubdiv::Sdc::Options rules;
+        rules.SetVtxBoundaryInterpolation(OpenSubdiv::Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
+        std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> refiner(
+            Factory::Create(descriptor, Factory::Options(OpenSubdiv::Sdc::SCHEME_CATMARK, rules)));
+        refiner->RefineUniform(OpenSubdiv::Far::TopologyRefiner::UniformOptions(static_cast<int>(levels)));
+        OpenSubdiv::Far::PrimvarRefinerReal<Real> values(*refiner);
+        std::vector<Value> from = cage;
+        for (int level = 1; level <= static_cast<int>(levels); level++) {
+            std::vector<Value> to(static_cast<std::size_t>(refiner->GetLevel(level).GetNumVertices()));
+            values.Interpolate(level, from, to);
+            from.swap(to);
+        }
+        std::vector<Point<Real>> moved;
+        for (std::size_t v = 0; v < cage.size(); v++) {
+            moved.push_back(from[v].x);
+        }
+        return moved;
     }
-    return largest;
-}
 
-void compare_on(std::uint64_t size)
-{
-    mt_context *context = shared_context();
-    mt_mesh *mesh = wavy_torus(size, true, false), *refined = nullptr;
-    require(context, mt_subdivide(context, mesh, nullptr, &refined));
-    Row row;
-    row.name = "Catmull-Clark, 1 level";
-    row.mesh = "torus of quads";
-    row.faces = mesh->face_count;
-    row.note = "the peer's mesh is built beforehand";
-    auto ours = [mesh](mt_context *with) {
-        mt_mesh *result = nullptr;
-        require(with, mt_subdivide(with, mesh, nullptr, &result));
-        mt_mesh_destroy(with, result);
+  private:
+    struct Value {
+        Point<Real> x;
+
+        void Clear(void * = nullptr)
+        {
+            x = {0, 0, 0};
+        }
+
+        void AddWithWeight(const Value &other, Real weight)
+        {
+            x[0] += weight * other.x[0];
+            x[1] += weight * other.x[1];
+            x[2] += weight * other.x[2];
+        }
     };
-    OpenMeshMesh openmesh = openmesh_of(mesh), openmesh_refined = openmesh;
-    refine_openmesh(openmesh_refined);
-    row.peer = "OpenMesh";
-    row.error = largest_distance(refined, mesh->vertex_count, [&](mt_index v) {
-        return openmesh_refined.point(OpenMeshMesh::VertexHandle(static_cast<int>(v)));
-    });
-    // A fresh copy each run: the copy is part of the peer's time, as the new mesh is of ours.
-    compare(row, ours, [&openmesh] {
-        OpenMeshMesh copy = openmesh;
-        refine_openmesh(copy);
-    });
-    CgalMesh cgal = cgal_of(mesh), cgal_refined = cgal;
-    refine_cgal(cgal_refined);
-    row.peer = "CGAL";
-    row.error = largest_distance(refined, mesh->vertex_count,
-                                 [&](mt_index v) { return cgal_refined.point(CgalMesh::Vertex_index(v)); });
-    compare(row, ours, [&cgal] {
-        CgalMesh copy = cgal;
-        refine_cgal(copy);
-    });
-    mt_mesh_destroy(context, refined);
-    mt_mesh_destroy(context, mesh);
+
+    std::vector<int> sides, indices;
+    std::vector<Value> cage;
+    OpenSubdiv::Far::TopologyDescriptor descriptor;
+};
+
+// A fresh copy each run: the copy is part of the peer's time, as the new mesh is of ours.
+template <class Real> class OpenMeshPeer
+{
+  public:
+    static constexpr const char *name = "OpenMesh";
+
+    explicit OpenMeshPeer(const mt_mesh *mesh) : cage_count(mesh->vertex_count)
+    {
+        for (mt_index v = 0; v < mesh->vertex_count; v++) {
+            mt_vec3 p = mt_mesh_position(mesh, v);
+            built.add_vertex(
+                typename Mesh::Point(static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)));
+        }
+        for (mt_index corner = 0; corner < mesh->corner_count; corner += mesh->face_size) {
+            std::vector<typename Mesh::VertexHandle> handles;
+            for (mt_index k = 0; k < mesh->face_size; k++) {
+                handles.emplace_back(static_cast<int>(mesh->corner_vertices[corner + k]));
+            }
+            built.add_face(handles);
+        }
+    }
+
+    std::vector<Point<Real>> refine(unsigned levels) const
+    {
+        Mesh copy = built;
+        OpenMesh::Subdivider::Uniform::CatmullClarkT<Mesh, Real> subdivider;
+        subdivider.attach(copy);
+        subdivider(levels);
+        subdivider.detach();
+        std::vector<Point<Real>> moved;
+        for (std::size_t v = 0; v < cage_count; v++) {
+            auto p = copy.point(typename Mesh::VertexHandle(static_cast<int>(v)));
+            moved.push_back({p[0], p[1], p[2]});
+        }
+        return moved;
+    }
+
+  private:
+    struct Traits : OpenMesh::DefaultTraits {
+        using Point = OpenMesh::VectorT<Real, 3>;
+    };
+    using Mesh = OpenMesh::PolyMesh_ArrayKernelT<Traits>;
+    Mesh built;
+    std::size_t cage_count;
+};
+
+template <class Real> class CgalPeer
+{
+  public:
+    static constexpr const char *name = "CGAL";
+
+    explicit CgalPeer(const mt_mesh *mesh) : cage_count(mesh->vertex_count)
+    {
+        for (mt_index v = 0; v < mesh->vertex_count; v++) {
+            mt_vec3 p = mt_mesh_position(mesh, v);
+            built.add_vertex(
+                typename Mesh::Point(static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)));
+        }
+        for (mt_index corner = 0; corner < mesh->corner_count; corner += mesh->face_size) {
+            std::vector<typename Mesh::Vertex_index> handles;
+            for (mt_index k = 0; k < mesh->face_size; k++) {
+                handles.emplace_back(mesh->corner_vertices[corner + k]);
+            }
+            built.add_face(handles);
+        }
+    }
+
+    std::vector<Point<Real>> refine(unsigned levels) const
+    {
+        Mesh copy = built;
+        CGAL::Subdivision_method_3::CatmullClark_subdivision(copy, CGAL::parameters::number_of_iterations(levels));
+        std::vector<Point<Real>> moved;
+        for (std::size_t v = 0; v < cage_count; v++) {
+            auto p = copy.point(typename Mesh::Vertex_index(static_cast<mt_index>(v)));
+            moved.push_back({p.x(), p.y(), p.z()});
+        }
+        return moved;
+    }
+
+  private:
+    using Mesh = CGAL::Surface_mesh<typename CGAL::Simple_cartesian<Real>::Point_3>;
+    Mesh built;
+    std::size_t cage_count;
+};
+
+mt_mesh *refine_ours(mt_context *context, const mt_mesh *mesh, unsigned levels)
+{
+    mt_subdivide_options options{};
+    options.level_count = levels;
+    mt_mesh *result = nullptr;
+    require(context, mt_subdivide(context, mesh, &options, &result));
+    return result;
+}
+
+template <class Peer> void compare_with(Row row, const mt_mesh *mesh, unsigned levels)
+{
+    Peer peer(mesh);
+    mt_mesh *refined = refine_ours(shared_context(), mesh, levels);
+    auto moved = peer.refine(levels);
+    row.peer = Peer::name;
+    row.error = 0;
+    for (mt_index v = 0; v < mesh->vertex_count; v++) {
+        mt_vec3 p = mt_mesh_position(refined, v);
+        row.error = std::max({row.error, std::abs(p.x - double(moved[v][0])), std::abs(p.y - double(moved[v][1])),
+                              std::abs(p.z - double(moved[v][2]))});
+    }
+    mt_mesh_destroy(shared_context(), refined);
+    compare(
+        row, [&](mt_context *context) { mt_mesh_destroy(context, refine_ours(context, mesh, levels)); },
+        [&] { peer.refine(levels); });
+}
+
+// Bytes that the last level must read and write: vertices, corners, twins and edge numbers of the level before;
+// vertices and corners of the last. Levels before move a quarter of that, and so on.
+std::uint64_t bytes_of_levels(const mt_mesh *mesh, unsigned levels)
+{
+    std::uint64_t faces = mesh->face_count, vertices = mesh->vertex_count, edges = mesh->corner_count / 2, bytes = 0;
+    std::uint64_t size = 3 * mt_type_size(mesh->position_type);
+    for (unsigned level = 1; level <= levels; level++) {
+        std::uint64_t corners = 4 * faces, children = vertices + faces + edges;
+        bytes += vertices * size + corners * 8 + faces * 4 + children * size + corners * 16;
+        bytes += level < levels ? corners * 16 + corners * 4 : 0; // twins and edge numbers for the next level
+        vertices = children;
+        edges = 2 * edges + corners;
+        faces = corners;
+    }
+    return bytes;
+}
+
+void compare_with_copy(Row row, const mt_mesh *mesh, unsigned levels)
+{
+    std::uint64_t half = bytes_of_levels(mesh, levels) / 2;
+    std::vector<char> from(half, 1), to(half, 2);
+    row.peer = "memcpy";
+    row.note = "copies as many bytes as the levels must read and write";
+    compare(
+        row, [&](mt_context *context) { mt_mesh_destroy(context, refine_ours(context, mesh, levels)); },
+        [&] { std::memcpy(to.data(), from.data(), half); });
+}
+
+// Peers other than OpenSubdiv up to `last_of_others`: they take seconds a run on the largest.
+template <class Real> void compare_on(std::uint64_t size, unsigned last, unsigned last_of_others)
+{
+    mt_mesh *mesh = wavy_torus(size, true, false);
+    bool narrow = sizeof(Real) == sizeof(float);
+    if (narrow) {
+        require(shared_context(), mt_mesh_set_position_type(shared_context(), mesh, MT_F32, nullptr));
+    }
+    for (unsigned level = 1; level <= last; level++) {
+        Row row;
+        row.name = "Catmull-Clark L" + std::to_string(level) + (narrow ? " f32" : " f64");
+        row.mesh = std::to_string(mesh->face_count) + " quads";
+        row.faces = std::uint64_t(mesh->face_count) << (2 * level);
+        compare_with<OpenSubdivPeer<Real>>(row, mesh, level);
+        if (level <= last_of_others) {
+            compare_with<OpenMeshPeer<Real>>(row, mesh, level);
+            compare_with<CgalPeer<Real>>(row, mesh, level);
+        }
+        if (level == last) {
+            compare_with_copy(row, mesh, level);
+        }
+    }
+    mt_mesh_destroy(shared_context(), mesh);
 }
 
 } // namespace
 
 void run_subdivision()
 {
-    for (std::uint64_t size : {2500, 25000, 250000}) {
-        compare_on(size);
-    }
+    compare_on<double>(2500, 6, 6);
+    compare_on<float>(2500, 6, 5);
+    compare_on<double>(517000, 1, 1);
+    compare_on<float>(517000, 1, 1);
 }
 
 } // namespace bench
