@@ -11,6 +11,7 @@
 static const char *const boundaries[] = {"as-tagged", "smooth", "corners", "none", NULL};
 static const char *const crease_methods[] = {"as-tagged", "normal", "chaikin", NULL};
 static const char *const triangles[] = {"as-tagged", "normal", "smooth", NULL};
+static const char *const non_manifolds[] = {"refuse", "crease", NULL};
 static const char *const face_varyings[] = {
     "as-tagged", "all", "none", "corners-only", "corners-plus1", "corners-plus2", "boundaries", "linear", NULL};
 #define LINEAR_PLACE 7 /* of "linear", another word for all */
@@ -75,6 +76,13 @@ static const cli_option options[] = {
     {.name = "evaluate",
      .offset = offsetof(cli_subdivide_settings, evaluate),
      .help = "say how far the vertices of each level are from where they go in the limit; needs no -o"},
+    {.name = "non-manifold",
+     .offset = offsetof(cli_subdivide_settings, non_manifold),
+     .parse = cli_parse_choice,
+     .argument = "WAY",
+     .expects = "refuse or crease",
+     .choices = non_manifolds,
+     .help = "crease: edges of three faces, and vertices where faces meet that share no edge, stay sharp; refuse"},
     {.name = "dry-run",
      .offset = offsetof(cli_subdivide_settings, dry_run),
      .help = "only say the counts, bytes and expected time of each level; needs no -o"},
@@ -149,6 +157,7 @@ static cli_exit run_on(const cli_job *job, const mt_mesh *mesh, const mt_mesh_fo
         .face_varying = settings->face_varying == LINEAR_PLACE ? MT_SUBDIVIDE_FACE_VARYING_ALL
                                                                : (mt_subdivide_face_varying)settings->face_varying,
         .triangles = (mt_subdivide_triangles)settings->triangles,
+        .non_manifold = (mt_subdivide_non_manifold)settings->non_manifold,
         .crease_angle = settings->crease_angle * (MT_PI / 180),
         .creases = list.creases,
         .crease_count = list.crease_count,

@@ -80,7 +80,7 @@ static mt_status begin_state(mt_context *context, const mt_edge_pairs *pairs, un
         state->topology_count = 1;
         status = check_rings(context, mesh, &state->topologies[0]);
     }
-    if (status == MT_OK) {
+    if (status == MT_OK && !state->cut) {
         status = mt_subdivide_holes(context, mesh, pairs, &state->settings, &state->holes);
     }
     if (status == MT_OK) {
@@ -224,37 +224,73 @@ static mt_status make_result(mt_context *context, mt_subdivide_state *state, uns
     if (status == MT_OK && state->settings.limit) {
         status = move_to_limit(context, state, *result);
     }
+    if (status == MT_OK && state->cut) {
+        status = mt_subdivide_cut_join(context, state->cut, result);
+    }
     if (status == MT_OK && state->holes) {
         status = mt_subdivide_trim(context, state->mesh, state->holes, level_count, result);
     }
     return status;
 }
 
-static mt_status subdivide_paired(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
-                                  const mt_subdivide_options *settings, mt_mesh **out)
+/* The state has its mesh and settings, whatever becomes of it. */
+static mt_status subdivide_state(mt_context *context, const mt_edge_pairs *pairs, mt_subdivide_state *state,
+                                 mt_mesh **out)
 {
-    unsigned level_count = settings->no_levels ? 0 : settings->level_count;
-    mt_status status = mt_refuse_sides(context, mesh, pairs, WHO_NEEDS);
-    if (status != MT_OK) {
-        return status;
-    }
-    mt_subdivide_state state = {.mesh = mesh, .settings = *settings};
+    unsigned level_count = state->settings.no_levels ? 0 : state->settings.level_count;
     mt_mesh *result = NULL;
-    status = begin_state(context, pairs, level_count, &state);
+    mt_status status = mt_refuse_sides(context, state->mesh, pairs, WHO_NEEDS);
     if (status == MT_OK) {
-        status = make_result(context, &state, level_count, &result);
+        status = begin_state(context, pairs, level_count, state);
+    }
+    if (status == MT_OK) {
+        status = make_result(context, state, level_count, &result);
     }
     if (status == MT_OK) {
         status = mt_progress(context, TASK, 1);
     }
-    release_state(context, &state);
     if (status != MT_OK) {
         mt_mesh_destroy(context, result);
         return status;
     }
-    warn_of_normals(context, mesh, settings->limit);
+    warn_of_normals(context, state->mesh, state->settings.limit);
     *out = result;
     return MT_OK;
+}
+
+static mt_status subdivide_paired(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
+                                  const mt_subdivide_options *settings, mt_mesh **out)
+{
+    mt_subdivide_state state = {.mesh = mesh, .settings = *settings};
+    mt_status status = subdivide_state(context, pairs, &state, out);
+    release_state(context, &state);
+    return status;
+}
+
+/* Cut apart, refined, joined again. What was asked to be sharp is in the mesh of the cut. */
+static mt_status subdivide_cut(mt_context *context, const mt_mesh *mesh, const mt_edge_pairs *pairs,
+                               const mt_subdivide_options *settings, mt_mesh **out)
+{
+    mt_subdivide_cut cut = {0};
+    mt_edge_pairs *cut_pairs = NULL;
+    mt_subdivide_state state = {.settings = *settings, .cut = &cut};
+    state.settings.crease_angle = 0;
+    state.settings.crease_count = state.settings.sharp_vertex_count = 0;
+    mt_status status = mt_subdivide_holes(context, mesh, pairs, settings, &state.holes);
+    if (status == MT_OK) {
+        status = mt_subdivide_cut_create(context, mesh, pairs, settings, &cut);
+    }
+    if (status == MT_OK) {
+        state.mesh = cut.mesh;
+        status = mt_edge_pairs_create(context, cut.mesh, &cut_pairs);
+    }
+    if (status == MT_OK) {
+        status = subdivide_state(context, cut_pairs, &state, out);
+    }
+    release_state(context, &state);
+    mt_subdivide_cut_release(context, &cut);
+    mt_edge_pairs_destroy(context, cut_pairs);
+    return status;
 }
 
 /* What is too large whatever the edges are is refused before any memory is taken. */
@@ -282,7 +318,8 @@ mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdiv
     mt_edge_pairs *pairs;
     status = mt_edge_pairs_create(context, mesh, &pairs);
     if (status == MT_OK) {
-        status = subdivide_paired(context, mesh, pairs, &settings, out);
+        bool cuts = settings.non_manifold == MT_SUBDIVIDE_NON_MANIFOLD_SHARP;
+        status = (cuts ? subdivide_cut : subdivide_paired)(context, mesh, pairs, &settings, out);
         mt_edge_pairs_destroy(context, pairs);
     }
     return status;

@@ -4,18 +4,15 @@
 
 #include <string.h>
 
-/* The mesh's creases, those of the angle and those of the options, one after the other: later ones win. */
-static mt_status join_creases(mt_context *context, const mt_subdivide_state *state, mt_edge_value **joined,
-                              mt_index *count)
+mt_status mt_subdivide_join_creases(mt_context *context, const mt_mesh *mesh, const mt_index *twins,
+                                    const mt_subdivide_options *settings, mt_edge_value **joined, mt_index *count)
 {
-    const mt_mesh *mesh = state->mesh;
-    const mt_subdivide_options *settings = &state->settings;
     mt_edge_value *angled = NULL;
     mt_index angled_count = 0;
     mt_status status = MT_OK;
     if (settings->crease_angle > 0) {
-        status = mt_creases_of_angle(context, mesh, state->topologies[0].twins, settings->crease_angle,
-                                     (double)MT_SHARPNESS_INFINITE, &angled, &angled_count);
+        status = mt_creases_of_angle(context, mesh, twins, settings->crease_angle, (double)MT_SHARPNESS_INFINITE,
+                                     &angled, &angled_count);
     }
     uint64_t total = (uint64_t)mesh->crease_count + angled_count + settings->crease_count;
     *joined = status == MT_OK ? mt_allocate_array(context, total, sizeof **joined) : NULL;
@@ -32,34 +29,36 @@ static mt_status join_creases(mt_context *context, const mt_subdivide_state *sta
     return *joined ? MT_OK : mt_context_error(context)->status;
 }
 
-static mt_status join_sharp_vertices(mt_context *context, mt_subdivide_state *state)
+mt_status mt_subdivide_join_corners(mt_context *context, const mt_mesh *mesh, const mt_subdivide_options *settings,
+                                    mt_vertex_value **joined, mt_index *count)
 {
-    const mt_mesh *mesh = state->mesh;
-    const mt_subdivide_options *settings = &state->settings;
     uint64_t total = (uint64_t)mesh->sharp_vertex_count + settings->sharp_vertex_count;
-    mt_vertex_value *joined = state->sharp_vertices = mt_allocate_array(context, total, sizeof *joined);
-    if (!joined) {
+    *joined = mt_allocate_array(context, total, sizeof **joined);
+    *count = 0;
+    if (!*joined) {
         return mt_context_error(context)->status;
     }
     if (mesh->sharp_vertex_count) {
-        memcpy(joined, mesh->sharp_vertices, mesh->sharp_vertex_count * sizeof *joined);
+        memcpy(*joined, mesh->sharp_vertices, mesh->sharp_vertex_count * sizeof **joined);
     }
     if (settings->sharp_vertex_count) {
-        memcpy(joined + mesh->sharp_vertex_count, settings->sharp_vertices,
-               settings->sharp_vertex_count * sizeof *joined);
+        memcpy(*joined + mesh->sharp_vertex_count, settings->sharp_vertices,
+               settings->sharp_vertex_count * sizeof **joined);
     }
-    state->sharp_vertex_count = (mt_index)total;
+    *count = (mt_index)total;
     return MT_OK;
 }
 
 mt_status mt_subdivide_creases_create(mt_context *context, mt_subdivide_state *state)
 {
-    mt_sharp_input input = {.corners = state->settings.boundary == MT_SUBDIVIDE_BOUNDARY_CORNERS,
+    mt_sharp_input input = {.corners = state->settings.boundary == MT_SUBDIVIDE_BOUNDARY_CORNERS && !state->cut,
                             .chaikin = state->settings.crease_method == MT_SUBDIVIDE_CREASES_CHAIKIN};
     mt_edge_value *creases = NULL;
-    mt_status status = join_creases(context, state, &creases, &input.crease_count);
+    mt_status status = mt_subdivide_join_creases(context, state->mesh, state->topologies[0].twins, &state->settings,
+                                                 &creases, &input.crease_count);
     if (status == MT_OK) {
-        status = join_sharp_vertices(context, state);
+        status = mt_subdivide_join_corners(context, state->mesh, &state->settings, &state->sharp_vertices,
+                                           &state->sharp_vertex_count);
     }
     if (status == MT_OK) {
         input.creases = creases;

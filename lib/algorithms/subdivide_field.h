@@ -2,6 +2,7 @@
 #ifndef LIB_ALGORITHMS_SUBDIVIDE_FIELD_H
 #define LIB_ALGORITHMS_SUBDIVIDE_FIELD_H
 
+#include "lib/algorithms/subdivide_cut.h"
 #include "lib/algorithms/subdivide_value_rules.h"
 #include "lib/algorithms/subdivide_values.h"
 
@@ -29,7 +30,8 @@ typedef struct mt_subdivide_state {
     mt_subdivide_sharp sharp;
     mt_index sharp_vertex_count; /* as given, by the mesh and then the options */
     mt_vertex_value *sharp_vertices;
-    uint8_t *holes; /* per face of the mesh; NULL: none */
+    uint8_t *holes;        /* per face of the mesh; NULL: none */
+    mt_subdivide_cut *cut; /* the mesh is that of a cut; NULL: it is not */
 } mt_subdivide_state;
 
 /* Makes the topologies of the corner attributes and all fields; topologies[0] must stand. */

@@ -204,6 +204,9 @@ mt_status mt_subdivide_level(mt_context *context, mt_subdivide_state *state, con
     if (status == MT_OK) {
         status = plan_sharp(context, state, &plan);
     }
+    if (status == MT_OK && state->cut) {
+        status = mt_subdivide_cut_refine(context, &state->topologies[0], state->cut);
+    }
     for (mt_index i = 1; status == MT_OK && i < state->topology_count; i++) {
         status = plan_value_rules(context, state, i, &plan);
     }

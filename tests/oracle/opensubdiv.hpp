@@ -215,8 +215,9 @@ struct Match {
 inline Match first_match(const mt_mesh *mesh)
 {
     Match match;
-    for (mt_index v = 0; v < mesh->vertex_count; v++) {
-        match.vertices.push_back(static_cast<int>(v));
+    match.vertices.assign(mesh->vertex_count, -1); // in no face: Far makes nothing of those
+    for (mt_index corner = 0; corner < mesh->corner_count; corner++) {
+        match.vertices[mesh->corner_vertices[corner]] = static_cast<int>(mesh->corner_vertices[corner]);
     }
     for (mt_index f = 0; f < mesh->face_count; f++) {
         match.faces.emplace_back(static_cast<int>(f), 0);
@@ -232,7 +233,7 @@ inline Match next_match(const Far::TopologyRefiner &refiner, int level, const mt
     Match next;
     next.vertices.assign(child->vertex_count, -1);
     for (mt_index v = 0; v < parent->vertex_count; v++) {
-        next.vertices[v] = from.GetVertexChildVertex(match.vertices[v]);
+        next.vertices[v] = match.vertices[v] < 0 ? -1 : from.GetVertexChildVertex(match.vertices[v]);
     }
     mt_index corner = 0;
     for (mt_index f = 0; f < parent->face_count; f++) {

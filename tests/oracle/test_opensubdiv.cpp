@@ -326,6 +326,45 @@ void compare_triangles(mt_context *context)
     compare(context, "smooth triangles alone", hub);
 }
 
+// Sheets that share edges and vertices.
+void compare_non_manifold(mt_context *context)
+{
+    Random random(5);
+    Cage fins = cube();
+    fins.points.insert(fins.points.end(), {{3, 1, -1}, {3, 1, 1}, {3, -1, 1}, {-1, -1, 3}});
+    fins.faces.push_back({3, 7, 9, 8}); // a fin on edge 3-7
+    Cage book = cube();
+    book.points.insert(book.points.end(), {{3, 0, -1}, {3, 0, 1}});
+    book.faces.push_back({1, 3, 8});
+    Cage kiss = cube();
+    kiss.points.insert(kiss.points.end(), {{3, 1, 1}, {3, 3, 1}, {1, 3, 3}});
+    kiss.faces.push_back({7, 8, 9, 10}); // at vertex 7 alone
+    Cage row;                            // three sheets along a row of edges
+    for (int i = 0; i <= 4; i++) {
+        row.points.push_back({double(i), 0, 0});
+    }
+    for (int sheet = 0; sheet < 3; sheet++) {
+        auto base = static_cast<mt_index>(row.points.size());
+        for (int i = 0; i <= 4; i++) {
+            row.points.push_back({i + 0.1 * unit(random), std::cos(2.0 * sheet), std::sin(2.0 * sheet)});
+        }
+        for (mt_index i = 0; i < 4; i++) {
+            row.faces.push_back({i, i + 1, base + i + 1, base + i});
+        }
+    }
+    for (auto boundary : {MT_SUBDIVIDE_BOUNDARY_SMOOTH, MT_SUBDIVIDE_BOUNDARY_CORNERS}) {
+        std::string kind = boundary == MT_SUBDIVIDE_BOUNDARY_SMOOTH ? "smooth boundary" : "boundary with corners";
+        for (auto &[name, cage] : {std::pair<const char *, Cage &>{"a cube with a fin", fins},
+                                   {"a cube with a triangle on an edge", book},
+                                   {"a cube that a quad touches at a vertex", kiss},
+                                   {"three sheets along a row", row}}) {
+            cage.options.boundary = boundary;
+            cage.options.non_manifold = MT_SUBDIVIDE_NON_MANIFOLD_SHARP;
+            compare(context, std::string("non-manifold: ") + name + ", " + kind, cage);
+        }
+    }
+}
+
 // UVs of their own at every vertex, and seams: at a share of the corners another value is used, or the next corner's.
 void map(Random &random, Cage &cage, double share)
 {
@@ -389,6 +428,40 @@ void compare_face_varying(mt_context *context)
     }
 }
 
+// The files, as they are and with smooth UVs; what is not manifold as sharp. Levels as the size allows.
+void compare_files(mt_context *context)
+{
+    for (const std::string &file : mesh_files()) {
+        mt_mesh *mesh = nullptr;
+        if (mt_mesh_read_file(context, file.c_str(), nullptr, &mesh, nullptr) != MT_OK) {
+            mt_context_clear_error(context);
+            continue;
+        }
+        mt_subdivide_options options{};
+        mt_mesh *tried = nullptr;
+        mt_status status = mt_subdivide(context, mesh, &options, &tried);
+        mt_mesh_destroy(context, tried);
+        if (status == MT_ERROR_NOT_MANIFOLD) {
+            mt_context_clear_error(context);
+            options.non_manifold = MT_SUBDIVIDE_NON_MANIFOLD_SHARP;
+            status = mt_subdivide(context, mesh, &options, &tried);
+            mt_mesh_destroy(context, status == MT_OK ? tried : nullptr);
+        }
+        unsigned levels = mesh->corner_count > 100000 ? 1 : mesh->corner_count > 10000 ? 2 : 4;
+        if (status == MT_OK && mesh->face_count) {
+            mt_mesh_set_position_type(context, mesh, MT_F64, nullptr);
+            compare(context, file, mesh, options, levels, tolerance_f64);
+            options.face_varying = MT_SUBDIVIDE_FACE_VARYING_CORNERS_ONLY;
+            options.boundary = MT_SUBDIVIDE_BOUNDARY_CORNERS;
+            compare(context, file + ", smooth UVs, boundary with corners", mesh, options, levels, tolerance_f64);
+        } else if (status != MT_OK) {
+            std::printf("skipped %s: %s\n", file.c_str(), mt_context_error(context)->message);
+            mt_context_clear_error(context);
+        }
+        mt_mesh_destroy(context, mesh);
+    }
+}
+
 void compare_boundaries(mt_context *context)
 {
     Random random(3);
@@ -419,7 +492,9 @@ int main()
     compare_creases(context, MT_SUBDIVIDE_CREASES_CHAIKIN, "Chaikin creases");
     compare_boundaries(context);
     compare_triangles(context);
+    compare_non_manifold(context);
     compare_face_varying(context);
+    compare_files(context);
     mt_context_destroy(context);
     std::printf("limits compared: %zu positions, %zu normals; %zu left out where Far's masks do not hold\n",
                 limits.positions, limits.normals, limits.left_out);

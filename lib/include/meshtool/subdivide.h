@@ -49,6 +49,12 @@ typedef enum mt_subdivide_triangles {
     MT_SUBDIVIDE_TRIANGLES_SMOOTH /* level 1 weighs faces at edges of triangles by 0.47, not 1/4, which ripples less */
 } mt_subdivide_triangles;
 
+typedef enum mt_subdivide_non_manifold {
+    MT_SUBDIVIDE_NON_MANIFOLD_REFUSED,
+    MT_SUBDIVIDE_NON_MANIFOLD_SHARP /* edges of three faces and more, and vertices where several fans of faces meet, are
+                                       infinitely sharp; misoriented edges are refused still */
+} mt_subdivide_non_manifold;
+
 /* All zeros means the defaults. */
 typedef struct mt_subdivide_options {
     unsigned level_count; /* 0: 1 level; at most MT_SUBDIVIDE_LEVEL_LIMIT, else MT_ERROR_ARGUMENT */
@@ -58,6 +64,7 @@ typedef struct mt_subdivide_options {
     mt_subdivide_crease_method crease_method;
     mt_subdivide_face_varying face_varying;
     mt_subdivide_triangles triangles;
+    mt_subdivide_non_manifold non_manifold;
     double crease_angle; /* > 0: edges whose faces' normals are more radians apart become infinitely sharp */
     /* Sharpness beside the mesh's, which it replaces on the same edges and vertices (0: smooth); and holes. The
      * caller's; vertices and faces must be the mesh's, else MT_ERROR_ARGUMENT. */
