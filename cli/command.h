@@ -52,6 +52,7 @@ cli_exit cli_for_each_file(const cli_job *job, cli_exit (*work)(const cli_job *j
 /* The commands' records. */
 extern const cli_command cli_check_manifold_command;
 extern const cli_command cli_convert_command;
+extern const cli_command cli_distance_command;
 extern const cli_command cli_formats_command;
 extern const cli_command cli_generate_command;
 extern const cli_command cli_help_command;

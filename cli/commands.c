@@ -13,6 +13,7 @@ const cli_command *const cli_commands[] = {
     &cli_topology_command,
     &cli_preview_command,
     &cli_subdivide_command,
+    &cli_distance_command,
     &cli_convert_command,
     &cli_generate_command,
     &cli_formats_command,
