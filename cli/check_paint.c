@@ -239,6 +239,33 @@ static cli_exit write_painted(const cli_job *job, const cli_check *check, const 
     return code;
 }
 
+/* How much larger than the rest isolated vertices may make a picture; those farther out stay outside. */
+#define LARGEST_FRAME 10.0
+
+/* The isolated vertices as points of the mesh, so that the picture's frame takes them in. Returns how many. */
+static mt_index list_points(const cli_check *check, mt_index *points)
+{
+    const mt_mesh *mesh = check->mesh;
+    mt_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    for (mt_index c = 0; c < mesh->corner_count; c++) {
+        mt_vec3 p = mt_mesh_position(mesh, mesh->corner_vertices[c]);
+        low = mt_vec3_make(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
+        high = mt_vec3_make(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
+    }
+    mt_vec3 middle = mt_vec3_add(mt_vec3_scale(low, 0.5), mt_vec3_scale(high, 0.5));
+    double reach = LARGEST_FRAME / 2 * mt_vec3_max_abs(mt_vec3_subtract(high, low));
+    mt_index count = 0;
+    for (size_t i = 0; i < check->report->defect_list_count; i++) {
+        const mt_defect *defect = &check->report->defects[i];
+        if (defect->kind == MT_DEFECT_ISOLATED_VERTEX) {
+            mt_vec3 offset = mt_vec3_subtract(mt_mesh_position(mesh, defect->vertices[0]), middle);
+            points[count] = defect->vertices[0];
+            count += mt_vec3_max_abs(offset) <= reach;
+        }
+    }
+    return count;
+}
+
 static cli_exit write_picture(const cli_job *job, const cli_check *check, const defect_paint *paint, const char *path)
 {
     mt_preview_options how = {
@@ -249,8 +276,17 @@ static cli_exit write_picture(const cli_job *job, const cli_check *check, const 
         .edge_mark_colors = paint->edge_colors,
         .vertex_mark_colors = paint->vertices,
     };
+    mt_mesh shown = *check->mesh;
+    mt_index isolated_count = check->report->defect_counts[MT_DEFECT_ISOLATED_VERTEX];
+    mt_index *points = mt_allocate_array(job->context, (uint64_t)isolated_count + 1, sizeof *points);
     mt_image *image = NULL;
-    if (mt_preview(job->context, check->mesh, &how, &image) != MT_OK) {
+    if (points && shown.point_count == 0 && shown.face_count) {
+        shown.point_vertices = points;
+        shown.point_count = list_points(check, points);
+    }
+    mt_status status = points ? mt_preview(job->context, &shown, &how, &image) : MT_ERROR_OUT_OF_MEMORY;
+    mt_free(job->context, points);
+    if (status != MT_OK) {
         return cli_report_failure(job, check->file);
     }
     cli_exit code = cli_write_image(job, image, path);
