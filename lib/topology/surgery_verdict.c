@@ -36,10 +36,11 @@ mt_surgery_verdict mt_surgery_judge_split_edge(const mt_surgery_view *view, mt_i
     if (!surgery_has_side(view, side)) {
         return MT_SURGERY_NO_ELEMENT;
     }
-    bool are_triangles = surgery_in_triangle(view, side) && surgery_in_triangle(view, side ^ 1u);
-    mt_index opposite = surgery_head(view, surgery_next(view, side));
-    bool lie_back_to_back = are_triangles && surgery_head(view, surgery_next(view, side ^ 1u)) == opposite;
-    return lie_back_to_back ? MT_SURGERY_DUPLICATE_FACE : MT_SURGERY_ALLOWED;
+    if (!surgery_in_triangle(view, side) || !surgery_in_triangle(view, side ^ 1u)) {
+        return MT_SURGERY_ALLOWED;
+    }
+    mt_index c = surgery_head(view, surgery_next(view, side)), d = surgery_head(view, surgery_next(view, side ^ 1u));
+    return c == d ? MT_SURGERY_DUPLICATE_FACE : MT_SURGERY_ALLOWED;
 }
 
 mt_surgery_verdict mt_surgery_judge_split_vertex(const mt_surgery_view *view, mt_index vertex, mt_index from,

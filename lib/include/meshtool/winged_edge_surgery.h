@@ -21,7 +21,7 @@ typedef struct mt_winged_surgery {
     mt_edit_log log;
 } mt_winged_surgery;
 
-/* Works on a copy of `structure`. */
+/* Works on a copy of `structure`. MT_ERROR_TOO_LARGE past 2147 million edges, here and where they are made. */
 mt_status mt_winged_surgery_create(mt_context *context, const mt_winged_edge_mesh *structure, mt_winged_surgery **out);
 void mt_winged_surgery_destroy(mt_context *context, mt_winged_surgery *surgery); /* NULL is allowed */
 
