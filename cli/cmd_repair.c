@@ -91,7 +91,7 @@ static cli_line describe_remaining(const mt_manifold_report *after, mt_defect_ki
         }
         bool is_face =
             kind == MT_DEFECT_DEGENERATE_FACE || kind == MT_DEFECT_DUPLICATE_FACE || kind == MT_DEFECT_ZERO_AREA_FACE;
-        if (is_face && defect->face_count) {
+        if ((is_face || kind == MT_DEFECT_INSIDE_OUT_COMPONENT) && defect->face_count) {
             cli_line_add(&line, " (first: face %u)", defect->faces[0]);
         } else if (!is_face && defect->vertex_count == 2) {
             cli_line_add(&line, " (first: edge %u-%u)", defect->vertices[0], defect->vertices[1]);
@@ -103,6 +103,59 @@ static cli_line describe_remaining(const mt_manifold_report *after, mt_defect_ki
     return line;
 }
 
+/* Whether the kind is told of what remains. Pinches are non-manifold vertices or lie on non-manifold edges. */
+static bool remains(const mt_manifold_report *after, int kind)
+{
+    return after->defect_counts[kind] && kind != MT_DEFECT_BOUNDARY_PINCH;
+}
+
+/* The step that mends the kind; none for a boundary, which may be meant. */
+static mt_repair_step step_for(mt_defect_kind kind)
+{
+    switch (kind) {
+    case MT_DEFECT_DEGENERATE_FACE:
+    case MT_DEFECT_ZERO_AREA_FACE:
+        return MT_REPAIR_DROP_DEGENERATE;
+    case MT_DEFECT_DUPLICATE_FACE:
+        return MT_REPAIR_DROP_DUPLICATES;
+    case MT_DEFECT_NON_MANIFOLD_EDGE:
+    case MT_DEFECT_NON_MANIFOLD_VERTEX:
+        return MT_REPAIR_SPLIT;
+    case MT_DEFECT_MISORIENTED_EDGE:
+    case MT_DEFECT_INSIDE_OUT_COMPONENT:
+        return MT_REPAIR_ORIENT;
+    case MT_DEFECT_ISOLATED_VERTEX:
+        return MT_REPAIR_DROP_ISOLATED;
+    default:
+        return MT_REPAIR_STEP_COUNT;
+    }
+}
+
+/* The steps that would mend more of it and were not asked for. */
+static void print_advice(const mt_repair_report *report, const mt_manifold_report *after)
+{
+    bool helps[MT_REPAIR_STEP_COUNT + 1] = {false};
+    size_t count = 0, index = 0;
+    for (int kind = 0; kind < MT_DEFECT_KIND_COUNT; kind++) {
+        mt_repair_step step = step_for((mt_defect_kind)kind);
+        if (remains(after, kind) && step != MT_REPAIR_STEP_COUNT && !report->results[step].asked && !helps[step]) {
+            helps[step] = true;
+            count++;
+        }
+    }
+    cli_line line = {0};
+    for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
+        if (helps[step]) {
+            cli_line option = {0};
+            cli_line_add(&option, "--%s", mt_repair_step_option((mt_repair_step)step));
+            cli_line_add_item(&line, index++, count, option.text);
+        }
+    }
+    if (count) {
+        printf("%s would mend more of it.\n", line.text);
+    }
+}
+
 static void print_remaining(const mt_manifold_report *after)
 {
     static const char *const classes[] = {"manifold and closed", "manifold with boundary", "not manifold"};
@@ -110,14 +163,24 @@ static void print_remaining(const mt_manifold_report *after)
     cli_line line = {0};
     size_t kinds = 0, index = 0;
     for (int kind = 0; kind < MT_DEFECT_KIND_COUNT; kind++) {
-        kinds += after->defect_counts[kind] != 0;
+        kinds += remains(after, kind);
     }
     for (int kind = 0; kind < MT_DEFECT_KIND_COUNT; kind++) {
-        if (after->defect_counts[kind]) {
+        if (remains(after, kind)) {
             cli_line_add_item(&line, index++, kinds, describe_remaining(after, (mt_defect_kind)kind).text);
         }
     }
     printf(kinds ? ", still with %s.\n" : ".%s\n", line.text);
+}
+
+static bool asks_for_all(const mt_repair_report *report)
+{
+    for (int step = 0; step < MT_REPAIR_STEP_COUNT; step++) {
+        if (!report->results[step].asked) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static void print_text(const cli_job *job, const mt_repair_report *report, const mt_manifold_report *after)
@@ -128,9 +191,10 @@ static void print_text(const cli_job *job, const mt_repair_report *report, const
         changed = print_step((mt_repair_step)step, &report->results[step]) || changed;
     }
     if (!changed) {
-        puts("  nothing to mend");
+        puts(asks_for_all(report) ? "  nothing to mend" : "  nothing for these steps to mend");
     }
     print_remaining(after);
+    print_advice(report, after);
 }
 
 static json_t *numbers_json(const mt_index *numbers, uint64_t count)
@@ -173,7 +237,8 @@ static void print_json(const cli_job *job, const mt_repair_report *report, const
 static cli_exit write_and_tell(const cli_job *job, const mt_mesh *mesh, const mt_repair_report *report)
 {
     mt_manifold_report after;
-    if (mt_check_manifold(job->context, mesh, NULL, &after) != MT_OK) {
+    mt_manifold_options how = {.inside_out = true};
+    if (mt_check_manifold(job->context, mesh, &how, &after) != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }
     json_t *lost = NULL;

@@ -18,7 +18,8 @@ holds "a failed repair leaves the output" grep -qx precious "$folder/kept.off"
 
 # Only what is asked for is done.
 run 0 repair "$folder/flipped.off" -o "$folder/split.off" --split --drop-duplicates
-prints "nothing to mend"
+prints "nothing for these steps to mend"
+prints "--orient would mend more of it."
 prints "1 misoriented edge (first: edge 2-0)"
 run 0 repair "$folder/flipped.off" -o "$folder/oriented.off" --orient
 prints "turned 1 face"
@@ -68,7 +69,7 @@ OFF
 3 3 4 5
 END_OF_MESH
 run 0 repair "$folder/seam.off" -o "$folder/x.off" --weld
-prints "nothing to mend"
+prints "nothing for these steps to mend"
 run 0 repair "$folder/seam.off" -o "$folder/x.off" --tolerance 0.01
 prints "joined 2 vertices"
 run 0 repair "$folder/seam.off" -o "$folder/x.off" --tolerance 0.01 --split

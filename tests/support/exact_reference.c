@@ -101,6 +101,13 @@ static bool face_is_enclosed(const mt_mesh *mesh, mt_index face)
     return true;
 }
 
+/* Products of three such numbers, and sums of some hundred of them, fit 128 bits. */
+static bool is_small(whole_point d)
+{
+    const int64_t most = INT64_C(1) << 38;
+    return llabs(d.x) < most && llabs(d.y) < most && llabs(d.z) < most;
+}
+
 static wide face_volume(const mt_mesh *mesh, mt_index face, mt_vec3 origin, int exponent)
 {
     const mt_index *vertices = mesh->corner_vertices + mt_mesh_face_begin(mesh, face);
@@ -126,6 +133,12 @@ static bool encloses_negative(const mt_mesh *mesh, const uint8_t *marks, mt_inde
                 return false;
             }
             exponent = lowest(p, exponent);
+        }
+    }
+    for (mt_index c = 0; c < mesh->corner_count; c++) {
+        if (marks[mt_mesh_corner_face(mesh, c)] &&
+            !is_small(difference(mt_mesh_position(mesh, mesh->corner_vertices[c]), origin, exponent))) {
+            return false;
         }
     }
     wide volume = 0;

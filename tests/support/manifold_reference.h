@@ -17,7 +17,7 @@ bool test_edge_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index a, m
 
 /* Whether the face is the first of a component that is inside out, and whether three points are exactly on one line:
  * the latter for coordinates whose bits span little more than a double's, as those of small whole numbers moved and
- * scaled do, the former for such whose differences have 40 bits. */
+ * scaled do, the former for such whose differences have 38 bits, and false for others. */
 bool test_component_is_inside_out(const mt_mesh *mesh, mt_index face);
 bool test_points_are_collinear(mt_vec3 a, mt_vec3 b, mt_vec3 c);
 
