@@ -5,8 +5,8 @@
  * predicates decide the slow way. Each task keeps the pairs that it finds; the whole is sorted at the end, so the
  * answer does not depend on threads.
  *
- * Cost: the tree (56 bytes a triangle), the positions in double, and the pairs. A mesh in which very many triangles
- * overlap has that many pairs: MT_ERROR_TOO_LARGE past 2^31. */
+ * Cost: the tree (44 bytes a triangle), the positions in double where they need scaling, and the pairs. A mesh in which
+ * very many triangles overlap has that many pairs: MT_ERROR_TOO_LARGE past 2^31. */
 #include "lib/algorithms/triangle_plane.h"
 
 #include <meshtool/aabb_tree.h>

@@ -4,7 +4,7 @@
 
 #include <meshtool/aabb_tree.h>
 
-#define MT_AABB_LEAF_SIZE 4
+#define MT_AABB_LEAF_SIZE 8
 
 /* Orders the tree's primitives leaf by leaf and fills its nodes. */
 mt_status mt_aabb_build(mt_context *context, mt_aabb_tree *tree);

@@ -23,13 +23,15 @@ struct Row {
     Sample ours, ours_all, theirs; // one thread, all threads, the peer
     double error = -1;             // largest difference to the peer; negative: none can be named
     std::string note;
+    const double *verdict = nullptr; // where the peer's runs leave the error; else it is given
 };
 
 // A run takes the context to work in and returns nothing; what it made it destroys.
 using Ours = std::function<void(mt_context *)>;
 using Theirs = std::function<void()>;
 
-// Runs ours on one thread, ours on all and the peer's in turn, until each took half a second or ran nine times.
+// Runs ours on one thread, ours on all and the peer's in turn, nine times or for three seconds in all, but three times
+// at least; a peer that has taken three seconds does not run again.
 void compare(Row row, const Ours &ours, const Theirs &theirs);
 
 // Every case by name, and what it measures.
@@ -56,7 +58,8 @@ mt_mesh *wavy_torus(std::uint64_t faces, bool quads, bool shuffled);
 // Fails loudly: a benchmark of a failed operation measures nothing.
 void require(mt_context *context, mt_status status);
 
-// Sizes that show growth: 10^4, 10^5, 10^6 faces.
+// Sizes that show growth: 10^4, 10^5, 10^6 faces, and 5 * 10^6 where time allows.
 inline const std::uint64_t sizes[] = {10000, 100000, 1000000};
+inline const std::uint64_t large_size = 5000000;
 
 } // namespace bench

@@ -38,7 +38,7 @@ typedef struct mt_aabb_tree {
 } mt_aabb_tree;
 
 /* Builds the tree over the triangles of a mesh by its shared triangulation. Triangles with a vertex that is not finite,
- * and those for which skip (one byte each, may be NULL) is not 0, are left out. O(n log n) time; about 56 bytes a
+ * and those for which skip (one byte each, may be NULL) is not 0, are left out. O(n log n) time; about 44 bytes a
  * triangle kept. The same tree for any number of threads. */
 mt_status mt_aabb_tree_create(mt_context *context, const mt_mesh *mesh, const mt_triangulation *triangulation,
                               const uint8_t *skip, mt_aabb_tree **out);
