@@ -19,16 +19,18 @@ static mt_mesh *two_triangles(mt_context *context)
     const double positions[12] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 4, -4, 0};
     const mt_index faces[] = {3, 0, 1, 2, 3, 1, 0, 3};
     mt_mesh *mesh = test_mesh(context, 4, positions, 2, faces);
-    mt_attribute *u = test_surgery_attribute(
-        context, mesh, &(mt_attribute_layout){"u", MT_SEMANTIC_UV, MT_DOMAIN_CORNER, MT_F64, 2, 6, true});
-    mt_attribute *count = test_surgery_attribute(
-        context, mesh, &(mt_attribute_layout){"count", MT_SEMANTIC_GENERIC, MT_DOMAIN_VERTEX, MT_I32, 1, 4, false});
-    mt_attribute *shade = test_surgery_attribute(
-        context, mesh, &(mt_attribute_layout){"shade", MT_SEMANTIC_COLOR, MT_DOMAIN_FACE, MT_U8, 1, 2, false});
-    mt_attribute *normal = test_surgery_attribute(
-        context, mesh, &(mt_attribute_layout){"normal", MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX, MT_F32, 3, 4, false});
-    mt_attribute *time = test_surgery_attribute(
-        context, mesh, &(mt_attribute_layout){"time", MT_SEMANTIC_GENERIC, MT_DOMAIN_MESH, MT_F32, 1, 1, false});
+    const mt_attribute_layout layouts[] = {
+        {"u", MT_SEMANTIC_UV, MT_DOMAIN_CORNER, MT_F64, 2, 6, true},
+        {"count", MT_SEMANTIC_GENERIC, MT_DOMAIN_VERTEX, MT_I32, 1, 4, false},
+        {"shade", MT_SEMANTIC_COLOR, MT_DOMAIN_FACE, MT_U8, 1, 2, false},
+        {"normal", MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX, MT_F32, 3, 4, false},
+        {"time", MT_SEMANTIC_GENERIC, MT_DOMAIN_MESH, MT_F32, 1, 1, false},
+    };
+    for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
+        test_surgery_attribute(context, mesh, &layouts[i]);
+    }
+    mt_attribute *u = &mesh->attributes[0], *count = &mesh->attributes[1], *shade = &mesh->attributes[2];
+    mt_attribute *normal = &mesh->attributes[3], *time = &mesh->attributes[4];
     mt_attribute_set(time, 0, 0, 7.5);
     for (mt_index i = 0; i < 6; i++) {
         u->indices[i] = i;

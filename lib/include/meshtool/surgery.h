@@ -1,6 +1,7 @@
 /* Surgery: local changes of a connectivity structure, the same on all three of them (halfedge_surgery.h,
- * winged_surgery.h, triangle_surgery.h). Told by its effect on the list of faces, below, every operation gives the same
- * vertex and face numbers and the same verdict on each; a face's list may begin at another of its vertices.
+ * winged_edge_surgery.h, triangle_neighbor_surgery.h). Told by its effect on the list of faces, below, every operation
+ * gives the same vertex and face numbers and the same verdict on each; a face's list may begin at another of its
+ * vertices.
  *
  * New vertices and faces take the next numbers; what is deleted leaves a gap until the structure is compacted. Vertices
  * that lose their last face stay, isolated. No operation makes two faces of the same vertices. An operation that is not
