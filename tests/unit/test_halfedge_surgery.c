@@ -1,5 +1,5 @@
-/* Surgery on half-edges: random sequences keep every invariant, collapse is allowed just where the face list stays a
- * manifold of the same shape, and positions follow. */
+/* Surgery on half-edges, beside what all structures share (test_surgery.c): collapse is allowed just where the check
+ * finds a manifold of the same shape, edges are mapped, bad elements and weights refused. */
 #include "tests/support/fixture.h"
 #include "tests/support/soup.h"
 #include "tests/support/unit.h"
@@ -51,32 +51,6 @@ static mt_status operate(mt_context *context, mt_halfedge_surgery *surgery, mt_i
         return mt_halfedge_collapse_edge(context, surgery, halfedge, 0.5);
     }
     return MT_OK;
-}
-
-static void random_operations_keep_the_invariants(void **state)
-{
-    (void)state;
-    for (int which = 0; which < 3; which++) {
-        mt_context *context = test_context();
-        mt_mesh *mesh = starting_mesh(context, which);
-        mt_halfedge_surgery *surgery = begin(context, mesh);
-        int64_t shape = euler(&surgery->structure);
-        test_random random = {7 + (uint64_t)which};
-        for (int i = 0; i < 10000; i++) {
-            mt_index h = (mt_index)test_random_below(&random, surgery->structure.halfedge_count);
-            uint64_t kinds = i / 500 % 2 ? 2 : 4;
-            assert_int_equal(operate(context, surgery, h, test_random_below(&random, kinds)), MT_OK);
-            if (i % 50 == 0) {
-                mt_halfedge_mesh *left = NULL;
-                assert_int_equal(compact(context, surgery, &left), MT_OK);
-                assert_true(euler(left) == shape);
-                mt_halfedge_destroy(context, left);
-            }
-        }
-        mt_halfedge_surgery_destroy(context, surgery);
-        mt_mesh_destroy(context, mesh);
-        test_context_end(context);
-    }
 }
 
 /* Whether the triangles with the half-edge's tail renamed to its head still make a manifold of the same shape. */
@@ -155,6 +129,74 @@ static void bad_elements_are_refused(void **state)
     test_context_end(context);
 }
 
+static void compaction_says_where_edges_went(void **state)
+{
+    (void)state;
+    mt_context *context = test_context();
+    mt_mesh *mesh = test_torus(context, 5, 4, false);
+    mt_halfedge_surgery *surgery = begin(context, mesh);
+    test_random random = {5};
+    for (int i = 0; i < 200; i++) {
+        mt_index h = (mt_index)test_random_below(&random, surgery->structure.halfedge_count);
+        assert_int_equal(operate(context, surgery, h, test_random_below(&random, 4)), MT_OK);
+    }
+    mt_surgery_map map;
+    mt_halfedge_mesh *left = NULL;
+    assert_int_equal(mt_halfedge_surgery_compact(context, surgery, &map, &left), MT_OK);
+    const mt_halfedge_mesh *own = &surgery->structure;
+    assert_int_equal(map.edge_count, own->halfedge_count / 2);
+    mt_index next_edge = 0;
+    for (mt_index h = 0; h < own->halfedge_count; h++) {
+        mt_index edge = map.edges[h / 2];
+        assert_int_equal(edge == MT_NONE, own->halfedges[h].head == MT_NONE);
+        if (edge != MT_NONE) {
+            assert_int_equal(edge, next_edge);
+            next_edge += h % 2;
+            assert_int_equal(left->halfedges[2 * edge + h % 2].head, map.vertices[own->halfedges[h].head]);
+        }
+    }
+    assert_int_equal(2 * next_edge, left->halfedge_count);
+    assert_true(left->halfedge_count < own->halfedge_count);
+    mt_surgery_map_release(context, &map);
+    mt_halfedge_destroy(context, left);
+    mt_halfedge_surgery_destroy(context, surgery);
+    mt_mesh_destroy(context, mesh);
+    test_context_end(context);
+}
+
+static void a_log_that_is_off_costs_nothing_and_gives_nothing(void **state)
+{
+    (void)state;
+    mt_context *context = test_context();
+    mt_mesh *mesh = test_fan(context, 6, true), *out = NULL;
+    mt_halfedge_surgery *surgery = begin(context, mesh);
+    surgery->log.is_off = true;
+    assert_int_equal(mt_halfedge_split_edge(context, surgery, 0, 0.5, NULL), MT_OK);
+    assert_true(surgery->log.count == 0 && surgery->log.edits == NULL);
+    assert_int_equal(mt_halfedge_surgery_to_mesh(context, surgery, mesh, &out), MT_ERROR_ARGUMENT);
+    assert_null(out);
+    mt_halfedge_surgery_destroy(context, surgery);
+    mt_mesh_destroy(context, mesh);
+    test_context_end(context);
+}
+
+static void weights_lie_between_the_ends(void **state)
+{
+    (void)state;
+    mt_context *context = test_context();
+    mt_mesh *mesh = test_fan(context, 6, true);
+    mt_halfedge_surgery *surgery = begin(context, mesh);
+    const double bad[] = {-0.25, 1.5, (double)NAN, (double)INFINITY};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_int_equal(mt_halfedge_split_edge(context, surgery, 0, bad[i], NULL), MT_ERROR_ARGUMENT);
+        assert_int_equal(mt_halfedge_collapse_edge(context, surgery, 0, bad[i]), MT_ERROR_ARGUMENT);
+    }
+    assert_true(surgery->log.count == 0);
+    mt_halfedge_surgery_destroy(context, surgery);
+    mt_mesh_destroy(context, mesh);
+    test_context_end(context);
+}
+
 static void a_tetrahedron_is_not_collapsed(void **state)
 {
     (void)state;
@@ -175,9 +217,11 @@ static void a_tetrahedron_is_not_collapsed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_operations_keep_the_invariants),
         cmocka_unit_test(collapse_is_allowed_where_the_face_list_stays_manifold),
         cmocka_unit_test(bad_elements_are_refused),
+        cmocka_unit_test(compaction_says_where_edges_went),
+        cmocka_unit_test(a_log_that_is_off_costs_nothing_and_gives_nothing),
+        cmocka_unit_test(weights_lie_between_the_ends),
         cmocka_unit_test(a_tetrahedron_is_not_collapsed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
