@@ -8,50 +8,63 @@
 #define VERTEX_BLOCK 32768
 
 /* An n x n pattern sheared so that no two samples share a column or a row: edges close to an axis, which the eye
- * is keenest on, get n * n levels instead of n. */
-static void place_samples(mt_frame *frame, unsigned sample_count)
+ * is keenest on, get n * n levels instead of n. One sample is in the middle. */
+mt_sampling mt_sampling_make(unsigned sample_count)
 {
+    mt_sampling sampling;
+    memset(&sampling, 0, sizeof sampling);
     unsigned n = 1;
     while (n * n < sample_count) {
         n++;
     }
     double width = (double)MT_STEPS / (n * n);
-    frame->sample_count = n * n;
-    frame->lane_count = (n * n + MT_GROUP_SIZE - 1) / MT_GROUP_SIZE * MT_GROUP_SIZE;
-    for (unsigned lane = 0; lane < frame->lane_count; lane++) {
-        unsigned sample = lane < frame->sample_count ? lane : 0, column = sample % n, row = sample / n;
-        frame->sample_x[lane] = (float)floor((n * column + row + 0.5) * width);
-        frame->sample_y[lane] = (float)floor((n * row + column + 0.5) * width);
+    sampling.sample_count = n * n;
+    sampling.lane_count = (n * n + MT_GROUP_SIZE - 1) / MT_GROUP_SIZE * MT_GROUP_SIZE;
+    for (unsigned lane = 0; lane < sampling.lane_count; lane++) {
+        unsigned sample = lane < sampling.sample_count ? lane : 0, column = sample % n, row = sample / n;
+        sampling.x[lane] = (float)floor((n * column + row + 0.5) * width);
+        sampling.y[lane] = (float)floor((n * row + column + 0.5) * width);
     }
-    frame->sample_first = (int32_t)floor(0.5 * width);
-    frame->sample_last = (int32_t)floor((n * n - 0.5) * width);
+    sampling.first = (int32_t)floor(0.5 * width);
+    sampling.last = (int32_t)floor((n * n - 0.5) * width);
+    return sampling;
 }
 
 static void project(void *user, uint64_t begin, uint64_t end)
 {
     const mt_frame *frame = (const mt_frame *)user;
-    double limit = 2.0 * (frame->camera.width > frame->camera.height ? frame->camera.width : frame->camera.height);
+    const mt_screen_vertex behind = {0, 0, -1};
+    double nearest = mt_camera_depth(&frame->camera, MT_NEAREST_DISTANCE);
     for (uint64_t vertex = begin; vertex < end; vertex++) {
         mt_screen_vertex *out = frame->vertices + vertex;
         *out = (mt_screen_vertex){0, 0, 0};
-        if (!(frame->model->flags[vertex] & MT_VERTEX_DRAWN)) {
-            continue;
-        }
-        mt_screen_point s = mt_camera_project(&frame->camera, mt_model_position(frame->model, (mt_index)vertex));
-        /* A framed picture has no vertex behind the eye or far outside. */
-        if (s.depth > 0 && fabs(s.x) < limit && fabs(s.y) < limit) {
-            *out = (mt_screen_vertex){s.x * MT_STEPS, s.y * MT_STEPS, s.depth};
+        if (frame->model->flags[vertex] & MT_VERTEX_DRAWN) {
+            mt_screen_point s = mt_camera_project(&frame->camera, mt_model_position(frame->model, (mt_index)vertex));
+            bool placed = s.depth > 0 && s.depth <= nearest;
+            *out = placed ? (mt_screen_vertex){s.x * MT_STEPS, s.y * MT_STEPS, s.depth} : behind;
         }
     }
 }
 
+/* A displacement in space as steps on the picture. */
+static void bound_doubt(mt_frame *frame)
+{
+    const mt_camera *camera = &frame->camera;
+    double steps = 0.5 * MT_STEPS * fmax(camera->width / camera->half_width, camera->height / camera->half_height);
+    frame->displacement = mt_hit_displacement(frame->profile);
+    frame->doubt = mt_camera_is_parallel(camera) ? frame->displacement * steps : 0;
+    frame->doubt_per_depth = mt_camera_is_parallel(camera) ? 0 : frame->displacement * steps;
+}
+
 mt_status mt_frame_init(mt_context *context, const mt_model *model, const mt_camera *camera, unsigned sample_count,
-                        mt_frame *frame)
+                        mt_ray_profile profile, mt_frame *frame)
 {
     memset(frame, 0, sizeof *frame);
     frame->model = model;
     frame->camera = *camera;
-    place_samples(frame, sample_count);
+    frame->profile = profile;
+    frame->sampling = mt_sampling_make(sample_count);
+    bound_doubt(frame);
     mt_index vertex_count = model->mesh->vertex_count;
     frame->vertices = (mt_screen_vertex *)mt_allocate_array(context, vertex_count, sizeof *frame->vertices);
     if (!frame->vertices) {

@@ -213,6 +213,22 @@ static void set_scales(mt_model *model, const double low[3], const double high[3
     model->unit = mt_power_of_two_scale(extent);
 }
 
+static mt_vec3 to_model(const mt_model *model, const double p[3])
+{
+    mt_vec3 q = {p[0], p[1], p[2]};
+    return mt_model_point(model, q);
+}
+
+/* The space of a mesh of these coordinates. */
+static void set_space(mt_model *model, const double low[3], const double high[3])
+{
+    model->low = to_model(model, low);
+    model->high = to_model(model, high);
+    double corners[6] = {model->low.x, model->low.y, model->low.z, model->high.x, model->high.y, model->high.z};
+    const mt_mesh box = {.vertex_count = 2, .positions = corners, .position_type = MT_F64};
+    model->space = mt_ray_space_of(&box);
+}
+
 static mt_status measure(mt_context *context, mt_model *model)
 {
     size_t block_count = ((size_t)model->mesh->vertex_count + VERTEX_BLOCK - 1) / VERTEX_BLOCK;
@@ -229,6 +245,7 @@ static mt_status measure(mt_context *context, mt_model *model)
         }
     }
     set_scales(model, task.lows[0], task.highs[0]);
+    set_space(model, task.lows[0], task.highs[0]);
     mt_free(context, blocks);
     return MT_OK;
 }

@@ -3,6 +3,7 @@
 #define MESHTOOL_RENDER_MODEL_H
 
 #include <meshtool/mesh.h>
+#include <meshtool/ray.h>
 #include <meshtool/triangulate.h>
 
 enum {
@@ -27,6 +28,8 @@ typedef struct mt_model {
     double scales[2]; /* powers of two that bring the coordinates to 1 */
     mt_vec3 center;   /* of what is drawn, after these */
     double unit;      /* power of two that then brings the extent to 1 */
+    mt_vec3 low, high;  /* bounds of what is drawn, after all this */
+    mt_ray_space space; /* in which rays and triangles given in these coordinates meet */
 } mt_model;
 
 /* MT_ERROR_INVALID_MESH, with the reason, when nothing can be drawn. Warns of faces skipped. The mesh is borrowed. */
@@ -39,14 +42,27 @@ void mt_model_draw_vertex(mt_model *model, mt_index vertex);
 /* Replaces the strokes by the sides of all drawn faces: for faces too thin for any sample. */
 mt_status mt_model_outline(mt_context *context, mt_model *model);
 
-/* A finite vertex relative to the centre, within [-1, 1]. */
-static inline mt_vec3 mt_model_position(const mt_model *model, mt_index vertex)
+/* A point of the mesh's coordinates in those of the model, and back. */
+static inline mt_vec3 mt_model_point(const mt_model *model, mt_vec3 p)
 {
-    mt_vec3 p = mt_mesh_position(model->mesh, vertex);
     p.x = (p.x * model->scales[0] * model->scales[1] - model->center.x) * model->unit;
     p.y = (p.y * model->scales[0] * model->scales[1] - model->center.y) * model->unit;
     p.z = (p.z * model->scales[0] * model->scales[1] - model->center.z) * model->unit;
     return p;
+}
+
+static inline mt_vec3 mt_model_original(const mt_model *model, mt_vec3 p)
+{
+    p.x = (p.x / model->unit + model->center.x) / model->scales[0] / model->scales[1];
+    p.y = (p.y / model->unit + model->center.y) / model->scales[0] / model->scales[1];
+    p.z = (p.z / model->unit + model->center.z) / model->scales[0] / model->scales[1];
+    return p;
+}
+
+/* A finite vertex relative to the centre, within [-1, 1]. */
+static inline mt_vec3 mt_model_position(const mt_model *model, mt_index vertex)
+{
+    return mt_model_point(model, mt_mesh_position(model->mesh, vertex));
 }
 
 static inline bool mt_model_skips(const mt_model *model, mt_index face)

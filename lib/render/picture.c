@@ -159,7 +159,7 @@ static void draw_tiles(void *user, uint64_t begin, uint64_t end)
 {
     const draw_task *task = (const draw_task *)user;
     const mt_picture *picture = task->picture;
-    unsigned lane_count = picture->frame->lane_count;
+    unsigned lane_count = picture->frame->sampling.lane_count;
     size_t lanes = mt_tile_lane_count(lane_count);
     uint64_t layers = picture->marks.count > 0 ? 3 : 2;
     mt_tile tile = {.lane_count = lane_count};

@@ -1,6 +1,7 @@
 /* The order of a preview: what is drawn, its normals, a view, a frame, tiles. */
 #include <meshtool/preview.h>
 
+#include "lib/render/framing.h"
 #include "lib/render/picture.h"
 #include "lib/render/view.h"
 
@@ -13,9 +14,6 @@
 /* No regular solid or prism has this angle: prisms turn by 360/n, so 45, 40 and 36 are taken, and an icosahedron
  * by 41.8. */
 #define DEFAULT_CREASE 41.0
-
-/* Half the field of view of the picture's shorter side, as a tangent: 28 degrees in all. */
-#define VIEW_TANGENT 0.25
 
 /* When the mesh covers less than a line of this many pixels' width across the picture, faces are outlined. */
 #define FAINT_WIDTH 0.25
@@ -119,20 +117,17 @@ static mt_status make_frame(mt_context *context, job *j)
     const mt_preview_options *options = j->options;
     mt_camera camera = {.width = options->width ? options->width : DEFAULT_SIZE,
                         .height = options->height ? options->height : DEFAULT_SIZE};
-    double shorter = camera.width < camera.height ? camera.width : camera.height;
-    camera.tangent_x = VIEW_TANGENT * camera.width / shorter;
-    camera.tangent_y = VIEW_TANGENT * camera.height / shorter;
     mt_view view = mt_view_default(&j->normals);
     mt_camera_frame(&camera, view.toward_eye, view.up);
     int part = mt_part_begin(context, "projected vertices", "on a grid that makes edge tests exact");
-    mt_status status = mt_camera_fit(context, &camera, &j->model);
+    mt_status status = mt_camera_fit(context, &camera, &j->model, &(mt_framing){0});
     /* A marked vertex may be in nothing that is drawn; its mark is, where it falls into the picture. */
     for (mt_index i = 0; i < j->mark_count; i++) {
         mt_model_draw_vertex(&j->model, j->marks[i].a);
         mt_model_draw_vertex(&j->model, j->marks[i].b);
     }
     if (status == MT_OK) {
-        status = mt_frame_init(context, &j->model, &camera, j->samples, &j->frame);
+        status = mt_frame_init(context, &j->model, &camera, j->samples, MT_RAY_WATERTIGHT, &j->frame);
     }
     mt_part_end(context, part);
     if (status != MT_OK) {
@@ -179,7 +174,7 @@ static bool is_faint(const job *j)
 {
     const mt_camera *camera = &j->frame.camera;
     double longer = camera->width > camera->height ? camera->width : camera->height;
-    return (double)j->picture.covered_samples < FAINT_WIDTH * longer * j->frame.sample_count;
+    return (double)j->picture.covered_samples < FAINT_WIDTH * longer * j->frame.sampling.sample_count;
 }
 
 static mt_status draw(mt_context *context, job *j, mt_image *image)

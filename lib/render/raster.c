@@ -1,15 +1,14 @@
 /* Object-order visibility after Pineda, "A Parallel Algorithm for Polygon Rasterization" (1988): three edge functions,
  * linear over the picture, whose signs say whether a sample is inside.
  *
- * Invariant: for coverage vertices are rounded to the picture's grid, and there edge functions are whole numbers
- * that are computed without rounding, in floats for triangles of a few pixels and in doubles for larger ones. So
- * neighbours that share an edge leave no gap, whatever their shapes. Depth is linear on the picture; its plane comes
- * from the vertices before rounding, in a canonical order, in doubles, and its coefficients are then rounded to
- * floats, so that a triangle given twice, or two triangles in one plane, are equally deep and the lowest wins
- * instead of a speckle.
+ * Invariant: the hit test (hit.h) decides, as it does for rays. Edge functions and planes of depth, in floats for
+ * triangles of a few pixels and in doubles for larger ones, carry bounds on how far they and the hit test may be apart.
+ * Where they are clear they are the hit test's answer; where they leave a doubt, about a sample near an edge or about
+ * two layers that nearly touch, the hit test is asked itself, equal t goes to the lowest triangle. So a picture is the
+ * same whichever order finds it, and neighbours leave no gap.
  *
- * Cost: per triangle a set-up, per pixel of its box three comparisons, and its samples where an edge passes.
- * Known limit: a triangle seen edge-on, or thinner than 1/256 of a pixel, may cover nothing. */
+ * Cost: per triangle a set-up, per pixel of its box three comparisons, and its samples where an edge passes; one sample
+ * in a hundred or so of a fine mesh is asked about, and all of those where two surfaces coincide. */
 #include "lib/render/raster.h"
 
 #include "lib/render/triangle.h"
@@ -19,50 +18,74 @@
 
 #define MAXIMUM_GROUPS (MT_MAXIMUM_SAMPLES / MT_GROUP_SIZE)
 
-/* Pixels along the box of a triangle whose edge functions, at most 2 * (9 * 256)^2, are exact in floats. */
+/* Pixels along the box of a triangle that is drawn in floats: with more, their rounding would leave doubts. */
 #define SMALL_SIZE 8
 
-/* A triangle ready to be tested. */
-typedef struct setup {
-    edge edges[3];
+/* A plane of depth ready for the samples. */
+typedef struct depth_setup {
     depth_plane plane;
-    float slope_x, slope_y; /* the plane's, rounded */
+    float slope_x, slope_y;
     mt_index number;
-} setup;
+} depth_setup;
 
-MT_INLINE void prepare(mt_index triangle, const corners *c, setup *s)
+float mt_triangle_depth(const mt_frame *frame, mt_index triangle, uint32_t x, uint32_t y, unsigned lane, double t)
 {
-    make_edges(c, s->edges);
-    s->plane = make_plane(c);
-    s->slope_x = (float)s->plane.slope_x;
-    s->slope_y = (float)s->plane.slope_y;
-    s->number = triangle;
-}
-
-MT_INLINE void hold(vector8f *value, float low, float high)
-{
-    vector8f lows = low - (vector8f){0}, highs = high - (vector8f){0};
-    vector8i under = *value<lows, over = *value> highs;
-    *value = (vector8f)(((vector8i)*value & ~(under | over)) | ((vector8i)lows & under) | ((vector8i)highs & over));
-}
-
-/* Stores the triangle in the samples of a group that it covers and where it is nearest. */
-MT_INLINE void store_group(const setup *s, const vector8i *inside, vector8f *near, float *depths, mt_index *numbers)
-{
-    if (s->plane.steep) {
-        hold(near, s->plane.farthest, s->plane.nearest);
+    triangle_setup s;
+    make_setup(frame, triangle, &s);
+    if (s.plane.vague) {
+        double depth = mt_camera_depth(&frame->camera, t);
+        return (float)(depth < (double)FLT_MAX ? depth : (double)FLT_MAX);
     }
+    const mt_sampling *sampling = &frame->sampling;
+    return depth_at(&s.plane, (int32_t)x, (int32_t)y) + (s.slope_x * sampling->x[lane] + s.slope_y * sampling->y[lane]);
+}
+
+/* Asks the hit test whether the triangle is what a sample shows. */
+static void settle(const mt_frame *frame, mt_tile *tile, mt_index triangle, uint32_t x, uint32_t y, unsigned lane)
+{
+    size_t at = mt_tile_lane(tile, x, y) + lane;
+    mt_ray_setup ray;
+    mt_ray_hit hit, old_hit;
+    const mt_ray from = mt_hit_ray(mt_frame_ray(frame, x, y, lane));
+    mt_ray_setup_init(&frame->model->space, &from, frame->profile, &ray);
+    if (!mt_hit(frame->model, &ray, triangle, &hit)) {
+        return;
+    }
+    float depth = mt_triangle_depth(frame, triangle, x, y, lane, hit.t), old = tile->depths[at];
+    float band = old * DEPTH_BAND, nearer = depth - old;
+    if (nearer < -band) {
+        return;
+    }
+    mt_index old_number = tile->numbers[at];
+    bool asks = nearer <= band && old_number != MT_NONE;
+    if (asks && mt_hit(frame->model, &ray, old_number, &old_hit) && !mt_ray_hit_is_nearer(&hit, &old_hit)) {
+        return;
+    }
+    tile->depths[at] = depth;
+    tile->numbers[at] = triangle;
+}
+
+__attribute__((noinline)) static void settle_lanes(const mt_frame *frame, mt_tile *tile, mt_index triangle, uint32_t x,
+                                                   uint32_t y, unsigned first_lane, unsigned lanes)
+{
+    for (; lanes; lanes &= lanes - 1) {
+        settle(frame, tile, triangle, x, y, first_lane + (unsigned)__builtin_ctz(lanes));
+    }
+}
+
+/* Stores the triangle in the samples of a group where it is clearly inside and nearest; returns, a bit each, those that
+ * are in doubt. */
+MT_INLINE unsigned store_group(const depth_setup *s, vector8i maybe, vector8i inside, vector8f near, float *depths,
+                               mt_index *numbers)
+{
     vector8f *old = (vector8f *)depths;
     vector8i *old_number = (vector8i *)numbers;
-    vector8i wins = *inside & (*near > *old);
-    *old = (vector8f)(((vector8i)*near & wins) | ((vector8i)*old & ~wins));
+    vector8f nearer = near - *old, band = *old * DEPTH_BAND;
+    vector8i wins = inside & (nearer > band);
+    vector8i doubt = maybe & ~wins & (nearer >= -band);
+    *old = (vector8f)(((vector8i)near & wins) | ((vector8i)*old & ~wins));
     *old_number = ((int32_t)s->number & wins) | (*old_number & ~wins);
-}
-
-MT_INLINE float depth_at(const setup *s, int32_t x, int32_t y)
-{
-    double left = (double)x * MT_STEPS, top = (double)y * MT_STEPS;
-    return (float)(s->plane.depth + (s->plane.slope_x * (left - s->plane.x) + s->plane.slope_y * (top - s->plane.y)));
+    return mt_any_lane(doubt) ? mt_lane_bits(doubt) : 0;
 }
 
 /* The least depth of a pixel's samples: nothing farther can be seen there. */
@@ -82,117 +105,170 @@ MT_INLINE float floor_of(const float *depths, unsigned group_count)
     return a < b ? a : b;
 }
 
+/* Whether a triangle that comes as near as `nearest` is clearly behind all samples of which `floor` is the farthest. */
+MT_INLINE bool is_behind(float nearest, float floor)
+{
+    return nearest < floor - floor * DEPTH_BAND;
+}
+
+/* A small triangle: edge functions in floats, from the top left corner of its box, with their doubt added. */
+typedef struct small_setup {
+    depth_setup depth;
+    float a[3], b[3], c[3], doubt[3]; /* twice the doubt */
+    float highest[3];                 /* at a pixel's samples, above its corner */
+} small_setup;
+
+MT_INLINE void prepare_depth(const mt_frame *frame, mt_index triangle, const corners *c, depth_setup *s)
+{
+    s->plane = make_plane(frame, c);
+    s->slope_x = (float)s->plane.slope_x;
+    s->slope_y = (float)s->plane.slope_y;
+    s->number = triangle;
+}
+
+MT_INLINE void prepare_small(const mt_frame *frame, mt_index triangle, const corners *c, pixel_box whole,
+                             small_setup *s)
+{
+    prepare_depth(frame, triangle, c, &s->depth);
+    float x[3], y[3], first = (float)frame->sampling.first, last = (float)frame->sampling.last;
+    for (int i = 0; i < 3; i++) {
+        x[i] = (float)(c->v[i]->x - (double)whole.first_x * MT_STEPS);
+        y[i] = (float)(c->v[i]->y - (double)whole.first_y * MT_STEPS);
+    }
+    int32_t width = whole.last_x - whole.first_x, height = whole.last_y - whole.first_y;
+    float size = (float)((width > height ? width : height) + 2) * MT_STEPS, doubt = (float)doubt_of(frame, c);
+    float sign = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]) < 0 ? -1.0F : 1.0F;
+    for (int i = 0; i < 3; i++) {
+        int next = i == 2 ? 0 : i + 1;
+        float a = sign * (y[i] - y[next]), b = sign * (x[next] - x[i]);
+        float own = (fabsf(a) + fabsf(b)) * doubt + size * size * FLOAT_ROUNDING;
+        s->a[i] = a, s->b[i] = b;
+        s->c[i] = own - (a * x[i] + b * y[i]);
+        s->doubt[i] = 2.0F * own;
+        s->highest[i] = a * (a > 0 ? last : first) + b * (b > 0 ? last : first);
+    }
+}
+
 /* Offsets of a small triangle's functions at the samples of a pixel. */
 typedef struct offsets {
     vector8f edges[3][MAXIMUM_GROUPS], depths[MAXIMUM_GROUPS];
 } offsets;
 
-MT_INLINE void draw_small_pixel(mt_tile *tile, const setup *s, const offsets *at, const int32_t e[3],
-                                unsigned group_count, int32_t x, int32_t y)
+MT_INLINE void draw_small_pixel(const mt_frame *frame, mt_tile *tile, const small_setup *s, const offsets *at,
+                                const float e[3], unsigned group_count, int32_t x, int32_t y)
 {
     size_t pixel = mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y), lane = pixel * tile->lane_count;
-    float depth = depth_at(s, x, y);
-    float e0 = (float)e[0], e1 = (float)e[1], e2 = (float)e[2];
+    float depth = depth_at(&s->depth.plane, x, y);
     for (unsigned g = 0; g < group_count; g++) {
-        /* No sum is -0, so the sign bits tell. */
-        vector8i signs =
-            (vector8i)(e0 + at->edges[0][g]) | (vector8i)(e1 + at->edges[1][g]) | (vector8i)(e2 + at->edges[2][g]);
-        vector8i inside = signs >= 0;
-        vector8f near = depth + at->depths[g];
+        vector8f e0 = e[0] + at->edges[0][g], e1 = e[1] + at->edges[1][g], e2 = e[2] + at->edges[2][g];
+        vector8i maybe = (e0 >= 0.0F) & (e1 >= 0.0F) & (e2 >= 0.0F);
+        vector8i inside = (e0 > s->doubt[0]) & (e1 > s->doubt[1]) & (e2 > s->doubt[2]);
+        inside &= s->depth.plane.vague ? 0 : -1;
         size_t first = lane + MT_GROUP_SIZE * g;
-        store_group(s, &inside, &near, tile->depths + first, tile->numbers + first);
+        unsigned doubt = store_group(&s->depth, maybe, inside, depth + at->depths[g], tile->depths + first,
+                                     tile->numbers + first);
+        if (__builtin_expect(doubt != 0, 0)) {
+            settle_lanes(frame, tile, s->depth.number, (uint32_t)x, (uint32_t)y, MT_GROUP_SIZE * g, doubt);
+        }
     }
     tile->floors[pixel] = floor_of(tile->depths + lane, group_count);
 }
 
 /* The box of a small triangle: everything in floats. */
-MT_INLINE void draw_small(const mt_frame *frame, mt_tile *tile, const setup *s, pixel_box box, unsigned group_count)
+MT_INLINE void draw_small(const mt_frame *frame, mt_tile *tile, const small_setup *s, pixel_box whole, pixel_box box,
+                          unsigned group_count)
 {
-    const vector8f *xs = (const vector8f *)frame->sample_x, *ys = (const vector8f *)frame->sample_y;
+    const vector8f *xs = (const vector8f *)frame->sampling.x, *ys = (const vector8f *)frame->sampling.y;
     offsets at;
     for (unsigned g = 0; g < group_count; g++) {
         for (int i = 0; i < 3; i++) {
-            at.edges[i][g] = (float)s->edges[i].a * xs[g] + (float)s->edges[i].b * ys[g];
+            at.edges[i][g] = s->a[i] * xs[g] + s->b[i] * ys[g];
         }
-        at.depths[g] = s->slope_x * xs[g] + s->slope_y * ys[g];
-    }
-    int32_t row[3], highest[3], first = frame->sample_first, last = frame->sample_last;
-    for (int i = 0; i < 3; i++) {
-        const edge *e = &s->edges[i];
-        row[i] = e->a * (box.first_x * MT_STEPS - e->x) + e->b * (box.first_y * MT_STEPS - e->y);
-        highest[i] = e->a * (e->a > 0 ? last : first) + e->b * (e->b > 0 ? last : first);
+        at.depths[g] = s->depth.slope_x * xs[g] + s->depth.slope_y * ys[g];
     }
     for (int32_t y = box.first_y; y <= box.last_y; y++) {
-        int32_t e[3] = {row[0], row[1], row[2]};
         for (int32_t x = box.first_x; x <= box.last_x; x++) {
-            bool touched = ((e[0] + highest[0]) | (e[1] + highest[1]) | (e[2] + highest[2])) >= 0;
-            if (touched && s->plane.nearest > tile->floors[mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y)]) {
-                draw_small_pixel(tile, s, &at, e, group_count, x, y);
-            }
+            float left = (float)((x - whole.first_x) * MT_STEPS), top = (float)((y - whole.first_y) * MT_STEPS), e[3];
+            bool touched = true;
             for (int i = 0; i < 3; i++) {
-                e[i] += s->edges[i].a * MT_STEPS;
+                e[i] = s->a[i] * left + s->b[i] * top + s->c[i];
+                touched &= e[i] + s->highest[i] >= 0;
             }
-        }
-        for (int i = 0; i < 3; i++) {
-            row[i] += s->edges[i].b * MT_STEPS;
+            float floor = tile->floors[mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y)];
+            if (touched && !is_behind(s->depth.plane.nearest, floor)) {
+                draw_small_pixel(frame, tile, s, &at, e, group_count, x, y);
+            }
         }
     }
 }
 
-/* A pixel of a large triangle; whole: no edge passes through its samples. */
-MT_INLINE void draw_large_pixel(const mt_frame *frame, mt_tile *tile, const setup *s, const int64_t e[3], bool whole,
-                                int32_t x, int32_t y)
+/* A large triangle: edge functions in doubles. */
+typedef struct large_setup {
+    depth_setup depth;
+    edge edges[3];
+    double lowest[3], highest[3]; /* at a pixel's samples, above its corner */
+} large_setup;
+
+/* A pixel of a large triangle; whole: clearly all inside. */
+MT_INLINE void draw_large_pixel(const mt_frame *frame, mt_tile *tile, const large_setup *s, const double e[3],
+                                bool whole, int32_t x, int32_t y)
 {
-    const vector8f *xs = (const vector8f *)frame->sample_x, *ys = (const vector8f *)frame->sample_y;
+    const vector8f *xs = (const vector8f *)frame->sampling.x, *ys = (const vector8f *)frame->sampling.y;
     size_t pixel = mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y), lane = pixel * tile->lane_count;
-    unsigned group_count = frame->lane_count / MT_GROUP_SIZE;
-    float depth = depth_at(s, x, y);
+    unsigned group_count = frame->sampling.lane_count / MT_GROUP_SIZE;
+    float depth = depth_at(&s->depth.plane, x, y);
     for (unsigned g = 0; g < group_count; g++) {
-        vector8i inside = ~(vector8i){0};
+        vector8i maybe = ~(vector8i){0}, inside = maybe;
         if (!whole) {
             vector8d dx = __builtin_convertvector(xs[g], vector8d), dy = __builtin_convertvector(ys[g], vector8d);
             for (int i = 0; i < 3; i++) {
-                vector8d at = (double)e[i] + ((double)s->edges[i].a * dx + (double)s->edges[i].b * dy);
-                inside &= __builtin_convertvector(at, vector8f) >= 0.0F;
+                vector8d at = e[i] + (s->edges[i].a * dx + s->edges[i].b * dy);
+                maybe &= __builtin_convertvector(at >= -s->edges[i].doubt, vector8i);
+                inside &= __builtin_convertvector(at > s->edges[i].doubt, vector8i);
             }
         }
-        vector8f near = depth + (s->slope_x * xs[g] + s->slope_y * ys[g]);
+        inside &= s->depth.plane.vague ? 0 : -1;
+        vector8f near = depth + (s->depth.slope_x * xs[g] + s->depth.slope_y * ys[g]);
         size_t first = lane + MT_GROUP_SIZE * g;
-        store_group(s, &inside, &near, tile->depths + first, tile->numbers + first);
+        unsigned doubt = store_group(&s->depth, maybe, inside, near, tile->depths + first, tile->numbers + first);
+        if (__builtin_expect(doubt != 0, 0)) {
+            settle_lanes(frame, tile, s->depth.number, (uint32_t)x, (uint32_t)y, MT_GROUP_SIZE * g, doubt);
+        }
     }
     tile->floors[pixel] = floor_of(tile->depths + lane, group_count);
 }
 
-/* How the edge functions of a large triangle change: from a pixel's corner to its samples, and from pixel to pixel. */
-typedef struct slopes {
-    int64_t lowest[3], highest[3];
-    double pixels_per_unit[3]; /* along a row; infinite for a level edge */
-} slopes;
-
-MT_INLINE slopes slopes_of(const mt_frame *frame, const setup *s)
+MT_INLINE void prepare_large(const mt_frame *frame, mt_index triangle, const corners *c, large_setup *s)
 {
-    slopes change;
-    int64_t first = frame->sample_first, last = frame->sample_last;
-    for (int i = 0; i < 3; i++) {
-        int64_t a = s->edges[i].a, b = s->edges[i].b;
-        change.lowest[i] = a * (a > 0 ? first : last) + b * (b > 0 ? first : last);
-        change.highest[i] = a * (a > 0 ? last : first) + b * (b > 0 ? last : first);
-        change.pixels_per_unit[i] = 1.0 / ((double)a * MT_STEPS);
+    if (is_placed(c)) {
+        prepare_depth(frame, triangle, c, &s->depth);
+        make_edges(frame, c, s->edges);
+    } else {
+        triangle_setup crossing;
+        mt_crossing_setup(frame, triangle, &crossing);
+        s->depth = (depth_setup){crossing.plane, (float)crossing.plane.slope_x, (float)crossing.plane.slope_y, triangle};
+        s->edges[0] = crossing.edges[0], s->edges[1] = crossing.edges[1], s->edges[2] = crossing.edges[2];
     }
-    return change;
+    double first = frame->sampling.first, last = frame->sampling.last;
+    for (int i = 0; i < 3; i++) {
+        double a = s->edges[i].a, b = s->edges[i].b;
+        s->lowest[i] = a * (a > 0 ? first : last) + b * (b > 0 ? first : last);
+        s->highest[i] = a * (a > 0 ? last : first) + b * (b > 0 ? last : first);
+    }
 }
 
 /* Pixels of the row at `top` (in steps) that the edges leave between first and last; one that rounding adds is found
- * outside by the exact test. */
-MT_INLINE void narrow_row(const setup *s, const slopes *change, int64_t top, int32_t *first, int32_t *last)
+ * outside by the next test. */
+MT_INLINE void narrow_row(const large_setup *s, double top, int32_t *first, int32_t *last)
 {
     double low = *first, high = *last;
     for (int i = 0; i < 3; i++) {
-        double at_zero = (double)(edge_at(&s->edges[i], 0, top) + change->highest[i]);
-        double crossing = -at_zero * change->pixels_per_unit[i];
-        if (s->edges[i].a > 0) {
+        const edge *e = &s->edges[i];
+        double at_zero = e->b * top + e->c + (s->highest[i] + e->doubt);
+        double crossing = -at_zero / (e->a * MT_STEPS);
+        if (e->a > 0) {
             low = crossing > low ? crossing : low;
-        } else if (s->edges[i].a < 0) {
+        } else if (e->a < 0) {
             high = crossing < high ? crossing : high;
         }
     }
@@ -204,21 +280,23 @@ MT_INLINE void narrow_row(const setup *s, const slopes *change, int64_t top, int
     }
 }
 
-MT_INLINE void draw_large(const mt_frame *frame, mt_tile *tile, const setup *s, pixel_box box)
+MT_INLINE void draw_large(const mt_frame *frame, mt_tile *tile, const large_setup *s, pixel_box box)
 {
-    slopes change = slopes_of(frame, s);
     for (int32_t y = box.first_y; y <= box.last_y; y++) {
         int32_t first = box.first_x, last = box.last_x;
-        narrow_row(s, &change, (int64_t)y * MT_STEPS, &first, &last);
+        narrow_row(s, (double)y * MT_STEPS, &first, &last);
         for (int32_t x = first; x <= last && x <= box.last_x; x++) {
-            int64_t e[3], outside = 0, crossed = 0;
+            double e[3];
+            bool touched = true, whole = true;
             for (int i = 0; i < 3; i++) {
-                e[i] = edge_at(&s->edges[i], (int64_t)x * MT_STEPS, (int64_t)y * MT_STEPS);
-                outside |= e[i] + change.highest[i];
-                crossed |= e[i] + change.lowest[i];
+                const edge *side = &s->edges[i];
+                e[i] = side->a * ((double)x * MT_STEPS) + side->b * ((double)y * MT_STEPS) + side->c;
+                touched &= e[i] + s->highest[i] >= -side->doubt;
+                whole &= e[i] + s->lowest[i] > side->doubt;
             }
-            if (outside >= 0 && s->plane.nearest > tile->floors[mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y)]) {
-                draw_large_pixel(frame, tile, s, e, crossed >= 0, x, y);
+            float floor = tile->floors[mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y)];
+            if (touched && !is_behind(s->depth.plane.nearest, floor)) {
+                draw_large_pixel(frame, tile, s, e, whole, x, y);
             }
         }
     }
@@ -251,8 +329,6 @@ MT_INLINE void prefetch(const mt_frame *frame, const mt_index *triangles, size_t
 /* Whether everything drawn so far hides the triangle. */
 MT_INLINE bool is_hidden(const mt_tile *tile, const corners *c, pixel_box box)
 {
-    double near = c->v[0]->depth > c->v[1]->depth ? c->v[0]->depth : c->v[1]->depth;
-    float nearest = (float)(c->v[2]->depth > near ? c->v[2]->depth : near);
     float floor = INFINITY;
     for (int32_t y = box.first_y; y <= box.last_y; y++) {
         for (int32_t x = box.first_x; x <= box.last_x; x++) {
@@ -260,30 +336,39 @@ MT_INLINE bool is_hidden(const mt_tile *tile, const corners *c, pixel_box box)
             floor = here < floor ? here : floor;
         }
     }
-    return nearest <= floor;
+    return is_behind((float)nearest_depth(c), floor);
+}
+
+MT_INLINE void draw_triangle(const mt_frame *frame, mt_tile *tile, mt_index triangle, unsigned group_count)
+{
+    corners c = load_corners(frame, triangle);
+    bool placed = is_placed(&c);
+    pixel_box whole = placed ? box_of(frame, &c) : mt_crossing_box(frame, triangle), box = clip(whole, tile);
+    bool small = placed && whole.last_x - whole.first_x < SMALL_SIZE && whole.last_y - whole.first_y < SMALL_SIZE;
+    if (box.first_x > box.last_x || box.first_y > box.last_y || (small && is_hidden(tile, &c, box))) {
+        return;
+    }
+    if (!small) {
+        large_setup s;
+        prepare_large(frame, triangle, &c, &s);
+        draw_large(frame, tile, &s, box);
+        return;
+    }
+    small_setup s;
+    prepare_small(frame, triangle, &c, whole, &s);
+    if (group_count == 2) {
+        draw_small(frame, tile, &s, whole, box, 2); /* the usual 16 samples, unrolled */
+    } else {
+        draw_small(frame, tile, &s, whole, box, group_count);
+    }
 }
 
 MT_CLONES
 static void draw_triangles(const mt_frame *frame, mt_tile *tile, const mt_index *triangles, size_t count)
 {
-    unsigned group_count = frame->lane_count / MT_GROUP_SIZE;
     for (size_t i = 0; i < count; i++) {
         prefetch(frame, triangles, count, i);
-        corners c = load_corners(frame, triangles[i]);
-        pixel_box whole = box_of(frame, &c), box = clip(whole, tile);
-        bool small = whole.last_x - whole.first_x < SMALL_SIZE && whole.last_y - whole.first_y < SMALL_SIZE;
-        if (box.first_x > box.last_x || box.first_y > box.last_y || (small && is_hidden(tile, &c, box))) {
-            continue;
-        }
-        setup s;
-        prepare(triangles[i], &c, &s);
-        if (!small) {
-            draw_large(frame, tile, &s, box);
-        } else if (group_count == 2) {
-            draw_small(frame, tile, &s, box, 2); /* the usual 16 samples, unrolled */
-        } else {
-            draw_small(frame, tile, &s, box, group_count);
-        }
+        draw_triangle(frame, tile, triangles[i], frame->sampling.lane_count / MT_GROUP_SIZE);
     }
 }
 

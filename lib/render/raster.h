@@ -8,8 +8,11 @@
 mt_tile_range mt_triangle_range(const mt_frame *frame, mt_index triangle);
 void mt_triangle_narrow(const mt_frame *frame, mt_index triangle, uint32_t tile_y, mt_tile_range *row);
 
-/* Draws triangles, given in ascending order. A sample on an edge belongs to both sides; the nearest triangle
- * wins, at equal depth the lowest. */
+/* Draws triangles, given in ascending order. In every sample the nearest wins that the hit test finds there, at equal t
+ * the lowest. */
 void mt_draw_triangles(const mt_frame *frame, mt_tile *tile, const mt_index *triangles, size_t count);
+
+/* The depth that a sample has where it shows the triangle, which the hit test meets there at t. */
+float mt_triangle_depth(const mt_frame *frame, mt_index triangle, uint32_t x, uint32_t y, unsigned lane, double t);
 
 #endif

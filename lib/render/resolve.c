@@ -38,8 +38,8 @@ static middle middle_of(const mt_frame *frame, uint64_t samples, uint32_t x, uin
     double sum_x = 0, sum_y = 0, count = 0;
     for (; samples; samples &= samples - 1) {
         int sample = __builtin_ctzll(samples);
-        sum_x += (double)frame->sample_x[sample];
-        sum_y += (double)frame->sample_y[sample];
+        sum_x += (double)frame->sampling.x[sample];
+        sum_y += (double)frame->sampling.y[sample];
         count++;
     }
     return (middle){(double)x * MT_STEPS + sum_x / count, (double)y * MT_STEPS + sum_y / count};
@@ -91,14 +91,10 @@ static double weight_of(const mt_index *marks, uint64_t samples)
 /* A bit for each sample that shows `number`. */
 MT_INLINE uint64_t samples_of(const mt_index *numbers, unsigned group_count, mt_index number)
 {
-    const vector8i bits = {1, 2, 4, 8, 16, 32, 64, 128};
     uint64_t samples = 0;
     for (unsigned g = 0; g < group_count; g++) {
-        vector8i here = (*(const vector8i *)(numbers + MT_GROUP_SIZE * g) == (int32_t)number) & bits;
-        vector4i half =
-            __builtin_shufflevector(here, here, 0, 1, 2, 3) | __builtin_shufflevector(here, here, 4, 5, 6, 7);
-        int32_t byte = (half[0] | half[1]) | (half[2] | half[3]);
-        samples |= (uint64_t)(uint32_t)byte << (MT_GROUP_SIZE * g);
+        vector8i here = *(const vector8i *)(numbers + MT_GROUP_SIZE * g) == (int32_t)number;
+        samples |= (uint64_t)mt_lane_bits(here) << (MT_GROUP_SIZE * g);
     }
     return samples;
 }
@@ -106,7 +102,7 @@ MT_INLINE uint64_t samples_of(const mt_index *numbers, unsigned group_count, mt_
 static void add_marks(const mt_picture *picture, const mt_index *marks, light_sum *sum)
 {
     const mt_look *look = picture->look;
-    for (unsigned sample = 0; sample < picture->frame->sample_count; sample++) {
+    for (unsigned sample = 0; sample < picture->frame->sampling.sample_count; sample++) {
         if (marks[sample] != MT_NONE) {
             const unsigned char *rgb = picture->mark_colors + 3 * (size_t)(marks[sample] / 2);
             mt_vec3 color = mt_linear_color(&look->surface, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
@@ -124,13 +120,13 @@ static mt_vec3 backdrop_at(const mt_picture *picture, uint32_t y)
 static void store(const mt_picture *picture, uint32_t x, uint32_t y, light_sum sum, mt_vec3 behind)
 {
     float *pixel = mt_image_pixel(picture->image, x, y);
-    double scale = 1.0 / picture->frame->sample_count;
+    double scale = 1.0 / picture->frame->sampling.sample_count;
     double alpha = sum.alpha * scale;
     if (picture->backdrop.transparent) {
         scale = sum.alpha > 0 ? 1.0 / sum.alpha : 0.0;
         pixel[3] = (float)alpha;
     } else {
-        sum.light = mt_vec3_add(sum.light, mt_vec3_scale(behind, picture->frame->sample_count - sum.alpha));
+        sum.light = mt_vec3_add(sum.light, mt_vec3_scale(behind, picture->frame->sampling.sample_count - sum.alpha));
     }
     pixel[0] = (float)(sum.light.x * scale);
     pixel[1] = (float)(sum.light.y * scale);
@@ -141,7 +137,7 @@ static void store(const mt_picture *picture, uint32_t x, uint32_t y, light_sum s
 MT_INLINE unsigned resolve_pixel(const mt_picture *picture, const mt_tile *tile, mt_facet_cache *cache, uint32_t x,
                                  uint32_t y, light_sum *sum)
 {
-    unsigned count = picture->frame->sample_count, group_count = tile->lane_count / MT_GROUP_SIZE, covered = 0;
+    unsigned count = picture->frame->sampling.sample_count, group_count = tile->lane_count / MT_GROUP_SIZE, covered = 0;
     size_t lane = mt_tile_lane(tile, x, y);
     const mt_index *numbers = tile->numbers + lane, *marks = tile->marks ? tile->marks + lane : NULL;
     uint64_t left = UINT64_MAX >> (64 - count);

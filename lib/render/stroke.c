@@ -6,8 +6,6 @@
 
 #include <math.h>
 
-typedef int64_t vector8l __attribute__((vector_size(64), may_alias));
-
 /* A segment in steps of the grid. */
 typedef struct segment {
     double x, y, along_x, along_y;
@@ -111,8 +109,8 @@ MT_INLINE void cover(const segment *s, double left, double top, const vector8f *
 MT_INLINE void draw_pixel(const mt_frame *frame, const segment *s, double left, double top, int32_t number,
                           float *depths, mt_index *numbers)
 {
-    const vector8f *xs = (const vector8f *)frame->sample_x, *ys = (const vector8f *)frame->sample_y;
-    for (unsigned g = 0; g < frame->lane_count / MT_GROUP_SIZE; g++) {
+    const vector8f *xs = (const vector8f *)frame->sampling.x, *ys = (const vector8f *)frame->sampling.y;
+    for (unsigned g = 0; g < frame->sampling.lane_count / MT_GROUP_SIZE; g++) {
         vector8f near;
         vector8i inside;
         cover(s, left, top, &xs[g], &ys[g], &inside, &near);
@@ -127,8 +125,8 @@ MT_INLINE void draw_pixel(const mt_frame *frame, const segment *s, double left, 
 MT_INLINE void mark_pixel(const mt_frame *frame, const segment *s, double left, double top, int32_t number,
                           const float *depths, mt_index *marks)
 {
-    const vector8f *xs = (const vector8f *)frame->sample_x, *ys = (const vector8f *)frame->sample_y;
-    for (unsigned g = 0; g < frame->lane_count / MT_GROUP_SIZE; g++) {
+    const vector8f *xs = (const vector8f *)frame->sampling.x, *ys = (const vector8f *)frame->sampling.y;
+    for (unsigned g = 0; g < frame->sampling.lane_count / MT_GROUP_SIZE; g++) {
         vector8f near;
         vector8i inside;
         cover(s, left, top, &xs[g], &ys[g], &inside, &near);

@@ -1,29 +1,29 @@
-/* A triangle on the picture's grid: its corners, its box in pixels, its edge functions, its plane of depth. */
+/* A triangle on the picture: its box in pixels, its edge functions, its plane of depth, and how far each can be trusted. */
 #ifndef MESHTOOL_RENDER_TRIANGLE_H
 #define MESHTOOL_RENDER_TRIANGLE_H
 
 #include "lib/render/frame.h"
 
+#include <float.h>
 #include <math.h>
 
 /* Triangles ahead whose vertices are asked for. */
 #define PREFETCH_DISTANCE 8
 
-/* Rounding to the grid moves an edge by less than a step. Where depth changes over its whole range within this many
- * steps, a sample's depth may leave the triangle's range and is held inside. */
-#define STEEP_STEPS 4.0
+/* Two depths are told apart without the hit test when they differ by more than this part of themselves; a triangle whose
+ * depth plane may be wrong by an eighth of it leaves depth to the hit test altogether. Smaller: more of these; larger:
+ * more pairs of layers are asked about. */
+#define DEPTH_BAND 0x1p-15F
+#define PLANE_ERROR 0x1p-18
 
-/* A triangle's corners on the grid. */
+/* Rounding, as parts of the largest term: of a sum of three products in double, and of a float one. */
+#define DOUBLE_ROUNDING 0x1p-49
+#define FLOAT_ROUNDING 0x1p-20F
+
+/* A triangle's corners in the picture. */
 typedef struct corners {
     const mt_screen_vertex *v[3];
-    int32_t x[3], y[3];
 } corners;
-
-/* To nearest; coordinates stay above -2^25, and the sum keeps truncation among positive numbers. */
-static inline int32_t on_grid(double steps)
-{
-    return (int32_t)(steps + (33554432.0 + 0.5)) - 33554432;
-}
 
 static inline corners load_corners(const mt_frame *frame, mt_index triangle)
 {
@@ -32,8 +32,6 @@ static inline corners load_corners(const mt_frame *frame, mt_index triangle)
     corners c;
     for (mt_index side = 0; side < 3; side++) {
         c.v[side] = &frame->vertices[vertices[mt_triangulation_corner(&model->triangulation, triangle, side)]];
-        c.x[side] = on_grid(c.v[side]->x);
-        c.y[side] = on_grid(c.v[side]->y);
     }
     return c;
 }
@@ -48,23 +46,38 @@ static inline void prefetch_vertices(const mt_frame *frame, mt_index triangle)
     }
 }
 
-static inline int64_t doubled_area(const corners *c)
+static inline double least(double a, double b, double c)
 {
-    int64_t ax = c->x[1] - c->x[0], ay = c->y[1] - c->y[0];
-    int64_t bx = c->x[2] - c->x[0], by = c->y[2] - c->y[0];
-    return ax * by - ay * bx;
+    double m = a < b ? a : b;
+    return m < c ? m : c;
 }
 
-static inline int32_t least(const int32_t v[3])
+static inline double most(double a, double b, double c)
 {
-    int32_t m = v[0] < v[1] ? v[0] : v[1];
-    return m < v[2] ? m : v[2];
+    double m = a > b ? a : b;
+    return m > c ? m : c;
 }
 
-static inline int32_t most(const int32_t v[3])
+static inline double nearest_depth(const corners *c)
 {
-    int32_t m = v[0] > v[1] ? v[0] : v[1];
-    return m > v[2] ? m : v[2];
+    return most(c->v[0]->depth, c->v[1]->depth, c->v[2]->depth);
+}
+
+static inline double farthest_depth(const corners *c)
+{
+    return least(c->v[0]->depth, c->v[1]->depth, c->v[2]->depth);
+}
+
+/* Whether all corners have a place in the picture. */
+static inline bool is_placed(const corners *c)
+{
+    return farthest_depth(c) > 0;
+}
+
+/* How far, in steps, the hit test may see the triangle from where it is drawn. */
+static inline double doubt_of(const mt_frame *frame, const corners *c)
+{
+    return frame->doubt + frame->doubt_per_depth * nearest_depth(c);
 }
 
 /* Pixels with a sample inside the box of the triangle; first > last where there is none. */
@@ -72,74 +85,108 @@ typedef struct pixel_box {
     int32_t first_x, first_y, last_x, last_y;
 } pixel_box;
 
+/* Wider than any picture on both sides. */
+#define PIXEL_LIMIT 1048576.0
+
+static inline int32_t pixel_of(double steps)
+{
+    double pixel = steps * (1.0 / MT_STEPS);
+    pixel = pixel > -PIXEL_LIMIT ? (pixel < PIXEL_LIMIT ? pixel : PIXEL_LIMIT) : -PIXEL_LIMIT;
+    return (int32_t)(pixel + 2 * PIXEL_LIMIT) - (int32_t)(2 * PIXEL_LIMIT);
+}
+
 static inline pixel_box box_of(const mt_frame *frame, const corners *c)
 {
-    int32_t up = MT_STEPS - 1 - frame->sample_last;
+    double doubt = doubt_of(frame, c);
+    double before = frame->sampling.last + doubt, after = doubt - frame->sampling.first;
     pixel_box box;
-    box.first_x = (least(c->x) + up) >> MT_STEP_BITS;
-    box.first_y = (least(c->y) + up) >> MT_STEP_BITS;
-    box.last_x = (most(c->x) - frame->sample_first) >> MT_STEP_BITS;
-    box.last_y = (most(c->y) - frame->sample_first) >> MT_STEP_BITS;
+    box.first_x = -pixel_of(before - least(c->v[0]->x, c->v[1]->x, c->v[2]->x));
+    box.first_y = -pixel_of(before - least(c->v[0]->y, c->v[1]->y, c->v[2]->y));
+    box.last_x = pixel_of(most(c->v[0]->x, c->v[1]->x, c->v[2]->x) + after);
+    box.last_y = pixel_of(most(c->v[0]->y, c->v[1]->y, c->v[2]->y) + after);
     return box;
 }
 
-/* An edge function A (x - x0) + B (y - y0), not negative inside. */
+/* An edge function a x + b y + c in steps, positive inside; nearer to zero than its doubt it says nothing. */
 typedef struct edge {
-    int32_t a, b, x, y;
+    double a, b, c, doubt;
 } edge;
-
-static inline void make_edges(const corners *c, edge edges[3])
-{
-    int32_t sign = doubled_area(c) < 0 ? -1 : 1;
-    for (int i = 0; i < 3; i++) {
-        int next = i == 2 ? 0 : i + 1;
-        edges[i] = (edge){sign * (c->y[i] - c->y[next]), sign * (c->x[next] - c->x[i]), c->x[i], c->y[i]};
-    }
-}
-
-static inline int64_t edge_at(const edge *e, int64_t x, int64_t y)
-{
-    return e->a * (x - e->x) + e->b * (y - e->y);
-}
 
 /* Depth as a plane over the picture. */
 typedef struct depth_plane {
     double x, y, depth, slope_x, slope_y;
-    float nearest, farthest;
-    bool steep;
+    float nearest;
+    bool vague; /* only the hit test knows the depth; the plane then is `nearest` everywhere */
 } depth_plane;
 
-/* Without branches: which corner comes first is anyone's guess. */
-static inline bool comes_before(const mt_screen_vertex *a, const mt_screen_vertex *b)
+static inline depth_plane vague_plane(double nearest)
 {
-    return (a->x < b->x) | ((a->x == b->x) & ((a->y < b->y) | ((a->y == b->y) & (a->depth < b->depth))));
+    depth_plane plane = {.depth = nearest < (double)FLT_MAX ? nearest : (double)FLT_MAX, .vague = true};
+    plane.nearest = (float)plane.depth;
+    return plane;
 }
 
-/* The plane seen from a corner that does not depend on the order of the corners; exchanging the other two changes the
- * sign of every product's numerator and denominator and nothing else. */
-static inline depth_plane make_plane(const corners *c)
+static inline depth_plane make_plane(const mt_frame *frame, const corners *c)
 {
-    int first = comes_before(c->v[1], c->v[0]);
-    first = comes_before(c->v[2], c->v[first]) ? 2 : first;
-    const mt_screen_vertex *p = c->v[first], *q = c->v[first == 2 ? 0 : first + 1],
-                           *r = c->v[first == 0 ? 2 : first - 1];
+    const mt_screen_vertex *p = c->v[0], *q = c->v[1], *r = c->v[2];
     double x1 = q->x - p->x, y1 = q->y - p->y, d1 = q->depth - p->depth;
     double x2 = r->x - p->x, y2 = r->y - p->y, d2 = r->depth - p->depth;
-    double area = x1 * y2 - x2 * y1, scale = 1.0 / area;
-    double low = d1 < d2 ? d1 : d2, high = d1 < d2 ? d2 : d1;
-    low = low < 0 ? low : 0.0;
-    high = high > 0 ? high : 0.0;
-    depth_plane plane = {.x = p->x, .y = p->y, .depth = p->depth};
+    double scale = 1.0 / (x1 * y2 - x2 * y1), nearest = nearest_depth(c), farthest = farthest_depth(c);
+    depth_plane plane = {.x = p->x, .y = p->y, .depth = p->depth, .nearest = (float)nearest};
     plane.slope_x = (d1 * y2 - d2 * y1) * scale;
     plane.slope_y = (d2 * x1 - d1 * x2) * scale;
-    plane.farthest = (float)(p->depth + low);
-    plane.nearest = (float)(p->depth + high);
-    /* Also when the triangle has an area on the grid alone, and the slopes are not numbers. */
-    plane.steep = !((fabs(plane.slope_x) + fabs(plane.slope_y)) * STEEP_STEPS <= high - low);
-    if (!(fabs(plane.slope_x) < 1.0 && fabs(plane.slope_y) < 1.0)) {
-        plane.slope_x = plane.slope_y = 0;
+    double slope = fabs(plane.slope_x) + fabs(plane.slope_y);
+    double reach = fabs(p->x) + fabs(p->y) + 2.0 * MT_STEPS * MT_PREVIEW_MAXIMUM_SIZE;
+    double error = slope * (doubt_of(frame, c) + MT_STEPS * (double)FLOAT_ROUNDING + reach * DOUBLE_ROUNDING);
+    error += frame->displacement * (mt_camera_is_parallel(&frame->camera) ? 1.0 : nearest * nearest);
+    /* Also when the slopes are not numbers. */
+    return error <= PLANE_ERROR * farthest ? plane : vague_plane(nearest);
+}
+
+/* Depth at the top left corner of a pixel. */
+static inline float depth_at(const depth_plane *plane, int32_t x, int32_t y)
+{
+    double left = (double)x * MT_STEPS, top = (double)y * MT_STEPS;
+    return (float)(plane->depth + (plane->slope_x * (left - plane->x) + plane->slope_y * (top - plane->y)));
+}
+
+/* A triangle ready to be tested in doubles. */
+typedef struct triangle_setup {
+    edge edges[3];
+    depth_plane plane;
+    float slope_x, slope_y; /* the plane's, rounded */
+    mt_index number;
+} triangle_setup;
+
+/* Of a triangle some of whose corners are beside or behind the eye (crossing.c). */
+pixel_box mt_crossing_box(const mt_frame *frame, mt_index triangle);
+void mt_crossing_setup(const mt_frame *frame, mt_index triangle, triangle_setup *setup);
+
+static inline void make_edges(const mt_frame *frame, const corners *c, edge edges[3])
+{
+    double doubt = doubt_of(frame, c), reach = (double)MT_STEPS * MT_PREVIEW_MAXIMUM_SIZE;
+    const mt_screen_vertex *p = c->v[0], *q = c->v[1], *r = c->v[2];
+    double area = (q->x - p->x) * (r->y - p->y) - (r->x - p->x) * (q->y - p->y), sign = area < 0 ? -1.0 : 1.0;
+    for (int i = 0; i < 3; i++) {
+        const mt_screen_vertex *from = c->v[i], *to = c->v[i == 2 ? 0 : i + 1];
+        double a = sign * (from->y - to->y), b = sign * (to->x - from->x);
+        double terms = fabs(a) * (fabs(from->x) + reach) + fabs(b) * (fabs(from->y) + reach);
+        edges[i] = (edge){a, b, -(a * from->x + b * from->y), (fabs(a) + fabs(b)) * doubt + terms * DOUBLE_ROUNDING};
     }
-    return plane;
+}
+
+static inline void make_setup(const mt_frame *frame, mt_index triangle, triangle_setup *setup)
+{
+    corners c = load_corners(frame, triangle);
+    if (is_placed(&c)) {
+        make_edges(frame, &c, setup->edges);
+        setup->plane = make_plane(frame, &c);
+    } else {
+        mt_crossing_setup(frame, triangle, setup);
+    }
+    setup->slope_x = (float)setup->plane.slope_x;
+    setup->slope_y = (float)setup->plane.slope_y;
+    setup->number = triangle;
 }
 
 #endif

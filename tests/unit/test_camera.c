@@ -2,7 +2,7 @@
 #include "tests/support/fixture.h"
 #include "tests/support/unit.h"
 
-#include "lib/render/camera.h"
+#include "lib/render/framing.h"
 
 #include <math.h>
 
@@ -52,7 +52,7 @@ static void up_parallel_to_the_view_has_an_answer(void **state)
 static void known_points_fall_where_they_must(void **state)
 {
     (void)state;
-    mt_camera camera = {.width = 200, .height = 100, .tangent_x = 1.0, .tangent_y = 0.5};
+    mt_camera camera = {.width = 200, .height = 100, .half_width = 1.0, .half_height = 0.5};
     mt_camera_frame(&camera, mt_vec3_make(0, 0, 1), mt_vec3_make(0, 1, 0));
     camera.eye = mt_vec3_make(0, 0, 4);
     static const double rows[][6] = {
@@ -96,10 +96,10 @@ static void the_mesh_fills_the_frame(void **state)
         assert_int_equal(mt_model_init(context, mesh, &model), MT_OK);
         mt_camera camera = {.width = sizes[round % 5][0], .height = sizes[round % 5][1]};
         double shorter = fmin(camera.width, camera.height);
-        camera.tangent_x = 0.25 * camera.width / shorter;
-        camera.tangent_y = 0.25 * camera.height / shorter;
+        camera.half_width = 0.25 * camera.width / shorter;
+        camera.half_height = 0.25 * camera.height / shorter;
         mt_camera_frame(&camera, mt_vec3_make(0.3, 0.4, 0.8), mt_vec3_make(0, 1, 0));
-        assert_int_equal(mt_camera_fit(context, &camera, &model), MT_OK);
+        assert_int_equal(mt_camera_fit(context, &camera, &model, &(mt_framing){0}), MT_OK);
         double reach = 0;
         for (mt_index vertex = 0; vertex < 20; vertex++) {
             mt_screen_point s = mt_camera_project(&camera, mt_model_position(&model, vertex));

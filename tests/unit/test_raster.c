@@ -32,10 +32,10 @@ static void scene_begin(scene *s, mt_context *context, mt_index triangle_count, 
         mt_mesh_set_position(s->mesh, i, mt_vec3_make(i % 3 == 0, i % 3 == 1, 0));
     }
     assert_int_equal(mt_model_init(context, s->mesh, &s->model), MT_OK);
-    mt_camera camera = {.width = SIZE, .height = SIZE, .tangent_x = 1, .tangent_y = 1};
+    mt_camera camera = {.width = SIZE, .height = SIZE, .half_width = 1, .half_height = 1};
     mt_camera_frame(&camera, mt_vec3_make(0, 0, 1), mt_vec3_make(0, 1, 0));
     camera.eye = mt_vec3_make(0, 0, 5);
-    assert_int_equal(mt_frame_init(context, &s->model, &camera, samples, &s->frame), MT_OK);
+    assert_int_equal(mt_frame_init(context, &s->model, &camera, samples, MT_RAY_EXACT, &s->frame), MT_OK);
 }
 
 static void scene_end(scene *s)
@@ -53,7 +53,7 @@ static void set_corner(scene *s, mt_index corner, double x, double y, double dep
 /* All tiles drawn with all triangles; numbers by [y][x][lane]. */
 static mt_index *draw(const scene *s, float **depths)
 {
-    unsigned lanes = s->frame.lane_count;
+    unsigned lanes = s->frame.sampling.lane_count;
     size_t tile_lanes = mt_tile_lane_count(lanes), count = (size_t)SIZE * SIZE * lanes;
     mt_index *numbers = malloc(count * sizeof *numbers), triangle_count = s->mesh->face_count;
     *depths = malloc(count * sizeof **depths);
@@ -111,8 +111,8 @@ static bool covers(const scene *s, mt_index triangle, uint32_t x, uint32_t y, un
         c[k][0] = (int64_t)floor(v->x + 0.5);
         c[k][1] = (int64_t)floor(v->y + 0.5);
     }
-    int64_t px = (int64_t)x * MT_STEPS + (int64_t)s->frame.sample_x[lane];
-    int64_t py = (int64_t)y * MT_STEPS + (int64_t)s->frame.sample_y[lane];
+    int64_t px = (int64_t)x * MT_STEPS + (int64_t)s->frame.sampling.x[lane];
+    int64_t py = (int64_t)y * MT_STEPS + (int64_t)s->frame.sampling.y[lane];
     int64_t e[3] = {side(c[0], c[1], px, py), side(c[1], c[2], px, py), side(c[2], c[0], px, py)};
     if (side(c[0], c[1], c[2][0], c[2][1]) == 0) {
         return false;
@@ -123,8 +123,8 @@ static bool covers(const scene *s, mt_index triangle, uint32_t x, uint32_t y, un
 static double depth_of(const scene *s, mt_index triangle, uint32_t x, uint32_t y, unsigned lane)
 {
     const mt_screen_vertex *v = &s->frame.vertices[3 * triangle];
-    double px = x * (double)MT_STEPS + (double)s->frame.sample_x[lane];
-    double py = y * (double)MT_STEPS + (double)s->frame.sample_y[lane];
+    double px = x * (double)MT_STEPS + (double)s->frame.sampling.x[lane];
+    double py = y * (double)MT_STEPS + (double)s->frame.sampling.y[lane];
     double area = (v[1].x - v[0].x) * (v[2].y - v[0].y) - (v[1].y - v[0].y) * (v[2].x - v[0].x);
     double b = ((px - v[0].x) * (v[2].y - v[0].y) - (py - v[0].y) * (v[2].x - v[0].x)) / area;
     double c = ((v[1].x - v[0].x) * (py - v[0].y) - (v[1].y - v[0].y) * (px - v[0].x)) / area;
@@ -156,9 +156,9 @@ static void compare(unsigned samples, uint64_t seed)
     float *depths = NULL;
     mt_index *numbers = draw(&s, &depths);
     for (size_t pixel = 0; pixel < (size_t)SIZE * SIZE; pixel++) {
-        for (unsigned lane = 0; lane < s.frame.sample_count; lane++) {
+        for (unsigned lane = 0; lane < s.frame.sampling.sample_count; lane++) {
             uint32_t x = (uint32_t)(pixel % SIZE), y = (uint32_t)(pixel / SIZE);
-            mt_index got = numbers[pixel * s.frame.lane_count + lane];
+            mt_index got = numbers[pixel * s.frame.sampling.lane_count + lane];
             double nearest = 0;
             for (mt_index i = 0; i < COUNT; i++) {
                 if (covers(&s, i, x, y, lane)) {
@@ -234,7 +234,7 @@ static void fans_have_no_holes(void **state)
             double dx = pixel % SIZE + 0.5 - 32, dy = (double)(pixel / SIZE) + 0.5 - 32;
             for (unsigned lane = 0; dx * dx + dy * dy < 28.0 * 28.0 && lane < 16; lane++) {
                 inside++;
-                holes += numbers[pixel * s.frame.lane_count + lane] == MT_NONE;
+                holes += numbers[pixel * s.frame.sampling.lane_count + lane] == MT_NONE;
             }
         }
         assert_true(inside > 30000);
@@ -269,7 +269,7 @@ static void equal_depth_goes_to_the_lowest(void **state)
         float *depths = NULL;
         mt_index *numbers = draw(&s, &depths);
         size_t covered = 0, wrong = 0;
-        for (size_t i = 0; i < (size_t)SIZE * SIZE * s.frame.lane_count; i++) {
+        for (size_t i = 0; i < (size_t)SIZE * SIZE * s.frame.sampling.lane_count; i++) {
             covered += numbers[i] != MT_NONE;
             wrong += numbers[i] != MT_NONE && numbers[i] > 1;
         }
