@@ -1,28 +1,7 @@
 /* meshtool preview: a picture of any mesh. */
-#include "files.h"
-#include "message.h"
-#include "quantity.h"
-
-#include <meshtool/preview.h>
+#include "preview.h"
 
 #include <string.h>
-
-typedef struct preview_size {
-    uint32_t width, height;
-} preview_size;
-
-typedef struct preview_background {
-    mt_background kind;
-    double color[3];
-} preview_background;
-
-typedef struct preview_settings {
-    cli_common common;
-    preview_size size;
-    preview_background background;
-    double crease;
-    unsigned samples;
-} preview_settings;
 
 static bool parse_size(const cli_option *option, const char *text, void *value)
 {
@@ -63,6 +42,10 @@ static bool parse_background(const cli_option *option, const char *text, void *v
 static bool parse_samples(const cli_option *option, const char *text, void *value)
 {
     static const unsigned known[] = {1, 4, 9, 16, 25, 36, 49, 64};
+    if (strcmp(text, "adaptive") == 0) {
+        *(unsigned *)value = MT_SAMPLES_ADAPTIVE;
+        return true;
+    }
     bool found = cli_parse_count(option, text, value);
     for (size_t i = 0; found && i < sizeof known / sizeof known[0]; i++) {
         if (*(unsigned *)value == known[i]) {
@@ -72,83 +55,180 @@ static bool parse_samples(const cli_option *option, const char *text, void *valu
     return false;
 }
 
+static bool parse_point(const cli_option *option, const char *text, void *value)
+{
+    (void)option;
+    preview_point *point = value;
+    point->is_given = true;
+    return cli_scan_numbers(text, 3, point->at);
+}
+
+static bool parse_up(const cli_option *option, const char *text, void *value)
+{
+    static const preview_point y = {true, {0, 1, 0}}, z = {true, {0, 0, 1}};
+    preview_point *up = value;
+    if (strcmp(text, "y") == 0 || strcmp(text, "z") == 0) {
+        *up = *text == 'y' ? y : z;
+        return true;
+    }
+    return parse_point(option, text, value) && (up->at[0] != 0 || up->at[1] != 0 || up->at[2] != 0);
+}
+
+/* In the order of the library's enumerations. */
+static const char *const projections[] = {"perspective", "orthographic", "cabinet", "cavalier", "oblique", NULL};
+static const char *const views[] = {"auto", "front", "back", "left", "right", "top", "bottom", "iso", NULL};
+static const char *const shadings[] = {"crease", "flat", "smooth", NULL};
+static const char *const methods[] = {"auto", "raster", "ray", NULL};
+static const char *const tests[] = {"watertight", "fast", "exact", NULL};
+
+#define SETTING(member) offsetof(preview_settings, member)
+
 static const cli_option options[] = {
     {.name = "size",
-     .offset = offsetof(preview_settings, size),
+     .offset = SETTING(size),
      .parse = parse_size,
      .argument = "WxH",
-     .expects = "a width and a height in pixels, such as 1920x1080",
+     .expects = "a width and a height in pixels from 1 to 65535, such as 1920x1080",
      .help = "pixels; 1024x1024"},
-    {.name = "background",
-     .offset = offsetof(preview_settings, background),
-     .parse = parse_background,
-     .argument = "COLOUR",
-     .expects = "transparent, or three numbers from 0 to 255, such as 255,255,255",
-     .help = "R,G,B from 0 to 255, or transparent; a light grey"},
+    {.name = "projection",
+     .offset = SETTING(projection),
+     .parse = cli_parse_choice,
+     .argument = "KIND",
+     .expects = "perspective, orthographic, oblique, cabinet or cavalier",
+     .choices = projections,
+     .help = "perspective, orthographic, or oblique: cabinet (the same) or cavalier; perspective, but orthographic "
+             "with --sheet"},
+    {.name = "view",
+     .offset = SETTING(view),
+     .parse = cli_parse_choice,
+     .argument = "SIDE",
+     .expects = "front, back, left, right, top, bottom, iso or auto",
+     .choices = views,
+     .help = "front, back, left, right, top, bottom, iso; auto: three quarters from above, or the front if oblique"},
+    {.name = "up",
+     .offset = SETTING(up),
+     .parse = parse_up,
+     .argument = "AXIS",
+     .expects = "y, z, or a direction x,y,z that is not 0,0,0",
+     .help = "y, z, or a direction x,y,z; z for STL, y for the others"},
+    {.name = "eye",
+     .offset = SETTING(eye),
+     .parse = parse_point,
+     .argument = "x,y,z",
+     .expects = "three numbers, such as 3,2,5",
+     .help = "look from this point (a parallel projection: from its direction)"},
+    {.name = "target",
+     .offset = SETTING(target),
+     .parse = parse_point,
+     .argument = "x,y,z",
+     .expects = "three numbers, such as 0,1,0",
+     .help = "the point in the middle of the picture; the mesh's middle"},
+    {.name = "fov",
+     .offset = SETTING(fov),
+     .parse = cli_parse_number,
+     .argument = "DEG",
+     .expects = "degrees from 0.001 to 179",
+     .minimum = 0.001,
+     .maximum = 179,
+     .help = "angle of the picture's shorter side; 28, or with --eye what shows all"},
+    {.name = "samples",
+     .offset = SETTING(samples),
+     .parse = parse_samples,
+     .argument = "N",
+     .expects = "a square number from 1 to 64, or adaptive",
+     .minimum = 1,
+     .maximum = 64,
+     .help = "samples a pixel, a square number, or adaptive: 4, and 64 where the face changes with its normal; 16"},
+    {.name = "shading",
+     .offset = SETTING(shading),
+     .parse = cli_parse_choice,
+     .argument = "KIND",
+     .expects = "crease, flat or smooth",
+     .choices = shadings,
+     .help = "crease: smooth but for sharp edges; flat: each face; smooth: all"},
     {.name = "crease",
-     .offset = offsetof(preview_settings, crease),
+     .offset = SETTING(crease),
      .parse = cli_parse_number,
      .argument = "DEG",
      .expects = "degrees from 0.001 to 180",
      .minimum = 0.001,
      .maximum = 180,
-     .help = "faces that meet at more than this show an edge; 42"},
-    {.name = "samples",
-     .offset = offsetof(preview_settings, samples),
-     .parse = parse_samples,
+     .help = "faces that meet at more than this show an edge; 41, or the normals of the file"},
+    {.name = "wireframe", .offset = SETTING(wireframe), .help = "draw the edges of all faces"},
+    {.name = "color-by",
+     .offset = SETTING(coloring),
+     .parse = preview_parse_coloring,
+     .argument = "WHAT",
+     .expects = "none, normal, face, component, defect, quality, depth or orientation (strip comes with the strips "
+                "command)",
+     .help = "none, normal, face, component, defect, quality (radius ratio: red is bad, blue good), depth, orientation "
+             "(fronts blue, backs red); the mesh's colours"},
+    {.name = "background",
+     .offset = SETTING(background),
+     .parse = parse_background,
+     .argument = "COLOUR",
+     .expects = "transparent, or three numbers from 0 to 255, such as 255,255,255",
+     .help = "R,G,B from 0 to 255, or transparent; a light grey"},
+    {.name = "shadows", .offset = SETTING(shadows), .help = "hard shadows of the main light"},
+    {.name = "ground", .offset = SETTING(ground), .help = "a floor under the mesh"},
+    {.name = "axes", .offset = SETTING(axes), .help = "the directions of x, y and z in a corner"},
+    {.name = "scale-bar", .offset = SETTING(scale_bar), .help = "a bar with its length, true at the target"},
+    {.name = "method",
+     .offset = SETTING(method),
+     .parse = cli_parse_choice,
+     .argument = "ORDER",
+     .expects = "auto, raster or ray",
+     .choices = methods,
+     .help = "raster: triangle by triangle; ray: sample by sample; the same picture; auto: raster"},
+    {.name = "accel",
+     .offset = SETTING(acceleration),
+     .parse = preview_parse_acceleration,
+     .argument = "KIND",
+     .expects = "auto, none or aabb (obb, grid and bsp are not built yet)",
+     .help = "what rays search: none, an aabb tree; auto: a tree for more than 64 triangles"},
+    {.name = "triangle-test",
+     .offset = SETTING(test),
+     .parse = cli_parse_choice,
+     .argument = "KIND",
+     .expects = "watertight, fast or exact",
+     .choices = tests,
+     .help = "how a ray hits: watertight; fast: rays slip through at edges; exact: in doubles"},
+    {.name = "turntable",
+     .offset = SETTING(turntable),
+     .parse = cli_parse_count,
      .argument = "N",
-     .expects = "a square number from 1 to 64",
-     .minimum = 1,
-     .maximum = 64,
-     .help = "samples a pixel, a square number; 16"},
+     .expects = "a whole number from 2 to 9999",
+     .minimum = 2,
+     .maximum = 9999,
+     .help = "N pictures around the up axis, a number before the dot of each name; with --sheet on one"},
+    {.name = "sheet", .offset = SETTING(sheet), .help = "six views on one picture"},
     {0},
 };
 
-static void print_json(const cli_job *job, const mt_mesh_format *read, const mt_image *image)
-{
-    json_t *object = cli_json_object();
-    cli_json_set(object, "file", cli_json_text(job->operands[0]));
-    cli_json_set(object, "format", cli_json_text(read->name));
-    cli_json_set(object, "output", cli_json_text(job->common->output));
-    cli_json_set(object, "width", cli_json_integer(image->width));
-    cli_json_set(object, "height", cli_json_integer(image->height));
-    cli_json_print_line(object);
-    json_decref(object);
-}
+static const preview_settings defaults = {.projection = PREVIEW_NO_PROJECTION};
 
-static cli_exit draw(const cli_job *job, const mt_mesh *mesh, const mt_mesh_format *read)
+static cli_exit check_usage(const cli_job *job, const mt_image_format *written)
 {
     const preview_settings *settings = job->settings;
-    mt_preview_options how = {
-        .width = settings->size.width,
-        .height = settings->size.height,
-        .background = settings->background.kind,
-        .crease_degrees = settings->crease,
-        .samples = settings->samples,
-    };
-    memcpy(how.background_color, settings->background.color, sizeof how.background_color);
-    mt_image *image = NULL;
-    if (mt_preview(job->context, mesh, &how, &image) != MT_OK) {
-        return cli_report_failure(job, job->operands[0]);
+    if (settings->background.kind == MT_BACKGROUND_TRANSPARENT && !written->holds_alpha) {
+        return cli_wrong_usage(job->command, "%s pictures cannot be transparent; write a png", written->name);
     }
-    cli_exit code = cli_write_image(job, image, job->common->output);
-    if (code == CLI_EXIT_DONE && job->common->json) {
-        print_json(job, read, image);
+    if (settings->turntable && !settings->sheet && !preview_can_number(settings->common.output)) {
+        return cli_wrong_usage(job->command, "--turntable writes several files, and cannot to a device or a pipe; name "
+                                             "a file, or add --sheet for one picture");
     }
-    mt_image_destroy(job->context, image);
-    return code;
+    return CLI_EXIT_DONE;
 }
 
 static cli_exit run(const cli_job *job)
 {
-    const preview_settings *settings = job->settings;
     const mt_image_format *written = NULL;
     cli_exit code = cli_check_inputs(job);
     if (code == CLI_EXIT_DONE) {
-        code = cli_check_image_output(job, settings->common.output, &written);
+        code = cli_check_image_output(job, job->common->output, &written);
     }
-    if (code == CLI_EXIT_DONE && settings->background.kind == MT_BACKGROUND_TRANSPARENT && !written->holds_alpha) {
-        code = cli_wrong_usage(job->command, "%s pictures cannot be transparent; write a png", written->name);
+    if (code == CLI_EXIT_DONE) {
+        code = check_usage(job, written);
     }
     const mt_mesh_format *read = NULL;
     mt_mesh *mesh = NULL;
@@ -156,7 +236,7 @@ static cli_exit run(const cli_job *job)
         code = cli_read_mesh(job, job->operands[0], &mesh, &read);
     }
     if (code == CLI_EXIT_DONE) {
-        code = draw(job, mesh, read);
+        code = preview_draw(job, mesh, read);
     }
     mt_mesh_destroy(job->context, mesh);
     return code;
@@ -168,13 +248,18 @@ const cli_command cli_preview_command = {
     .summary = "Draw a picture of a mesh",
     .description =
         "Any mesh, with no further option: framed, lit, smooth where it is smooth, creased where it is creased, "
-        "both sides of every face shown. +Z is up for STL, +Y for the others.",
+        "both sides of every face shown, backs bluish. +Z is up for STL, +Y for the others.",
     .examples = "  meshtool preview teapot.obj -o teapot.png\n"
-                "  meshtool preview part.stl -o part.png --size 1920x1080 --background transparent\n",
+                "  meshtool preview part.stl -o part.png --size 1920x1080 --background transparent\n"
+                "  meshtool preview part.stl -o part.png --shadows --ground --wireframe\n"
+                "  meshtool preview part.stl -o sides.png --sheet --scale-bar --size 1500x1000\n"
+                "  meshtool preview scan.ply -o holes.png --color-by defect\n"
+                "  meshtool preview teapot.obj -o turn.png --turntable 36\n",
     .options = options,
     .groups =
         CLI_GROUP_OUTPUT | CLI_GROUP_WRITE | CLI_GROUP_READ | CLI_GROUP_PRECISION | CLI_GROUP_WORK | CLI_GROUP_EVERY,
     .settings_size = sizeof(preview_settings),
+    .defaults = &defaults,
     .operand_minimum = 1,
     .operand_maximum = 1,
     .run = run,

@@ -95,6 +95,9 @@ static const cli_option work_options[] = {
      .choices = progress_choices,
      .help = "show a bar: auto (work over a second, on a terminal), always or never"},
     {.name = "explain", .offset = VALUE(explain), .help = "say what was built or skipped, with its time and bytes"},
+    {.name = "explain=measure",
+     .offset = VALUE(measure),
+     .help = "also measure what was skipped, where the command knows how (preview)"},
     {0},
 };
 

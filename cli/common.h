@@ -11,6 +11,7 @@ typedef enum cli_progress_mode { CLI_PROGRESS_AUTO, CLI_PROGRESS_ALWAYS, CLI_PRO
 /* The first member of every command's settings. Enumerations are stored as unsigned (cli_parse_choice). */
 typedef struct cli_common {
     bool help, json, quiet, verbose, explain;
+    bool measure; /* --explain=measure */
     bool strict_loss, no_clobber, force;
     unsigned threads;
     unsigned precision; /* mt_precision */

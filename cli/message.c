@@ -77,9 +77,9 @@ void cli_print_parts(const mt_context *context)
     cli_progress_clear();
     for (size_t i = 0; i < count; i++) {
         const mt_part *part = &parts[i];
-        if (part->built) {
-            fprintf(stderr, "built    %-28s %10.2f ms %12s", part->name, part->milliseconds,
-                    cli_bytes(part->bytes).text);
+        if (part->built || part->milliseconds > 0) {
+            fprintf(stderr, "%-8s %-28s %10.2f ms %12s", part->built ? "built" : "saved", part->name,
+                    part->milliseconds, cli_bytes(part->bytes).text);
         } else {
             fprintf(stderr, "skipped  %-28s %10s    %12s", part->name, "", "");
         }

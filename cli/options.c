@@ -23,6 +23,30 @@ static size_t count_options(const cli_option *const *tables)
     return count;
 }
 
+/* A flag with a fixed value, "explain=measure", goes by "explain-measure" to popt, which cuts names at the sign. */
+static const char *parser_name(const char *name)
+{
+    static const char *const joined[][2] = {{"explain=measure", "explain-measure"}};
+    for (size_t i = 0; name && i < sizeof joined / sizeof *joined; i++) {
+        if (strcmp(name, joined[i][0]) == 0) {
+            return joined[i][1];
+        }
+    }
+    return name;
+}
+
+static void join_values(int argument_count, const char **arguments)
+{
+    for (int i = 1; i < argument_count; i++) {
+        if (strcmp(arguments[i], "--") == 0) {
+            return;
+        }
+        if (strcmp(arguments[i], "--explain=measure") == 0) {
+            arguments[i] = "--explain-measure";
+        }
+    }
+}
+
 /* popt's records for ours, each with its number counted from 1 as the value that poptGetNextOpt returns. */
 static struct poptOption *make_parser_table(const cli_option *const *tables, const cli_option **by_number)
 {
@@ -31,7 +55,7 @@ static struct poptOption *make_parser_table(const cli_option *const *tables, con
     for (; *tables; tables++) {
         for (const cli_option *option = *tables; !is_end(option); option++) {
             struct poptOption *record = &records[number];
-            record->longName = option->name;
+            record->longName = parser_name(option->name);
             record->shortName = option->letter;
             record->argInfo = option->parse ? POPT_ARG_STRING : POPT_ARG_NONE;
             by_number[number] = option;
@@ -112,6 +136,7 @@ bool cli_options_parse(int argument_count, const char **arguments, const cli_opt
     size_t count = count_options(tables);
     const cli_option **by_number = cli_allocate(count + 1, sizeof(cli_option *));
     struct poptOption *records = make_parser_table(tables, by_number);
+    join_values(argument_count, arguments);
     poptContext parser = poptGetContext(NULL, argument_count, arguments, records, 0);
     out->parser = parser;
     out->values = cli_allocate((size_t)argument_count + 1, sizeof *out->values);

@@ -28,7 +28,7 @@ static cli_exit run_in_context(cli_job *job)
     mt_context_options options = {
         .thread_count = common->threads,
         .memory_limit = common->max_memory,
-        .explain = common->explain,
+        .explain = common->explain || common->measure,
         .progress = cli_progress_step,
         .progress_user = &progress,
         .warning = cli_print_warning,
@@ -39,7 +39,7 @@ static cli_exit run_in_context(cli_job *job)
         cli_out_of_memory();
     }
     cli_exit code = job->command->run(job);
-    if (common->explain) {
+    if (common->explain || common->measure) {
         cli_print_parts(job->context);
     }
     cli_progress_clear();

@@ -33,6 +33,15 @@ int mt_part_begin(mt_context *context, const char *name, const char *reason)
     return token;
 }
 
+int mt_part_begin_skipped(mt_context *context, const char *name, const char *reason)
+{
+    int token = mt_part_begin(context, name, reason);
+    if (token >= 0) {
+        context->parts[token].built = false;
+    }
+    return token;
+}
+
 void mt_part_end(mt_context *context, int token)
 {
     if (token < 0) {

@@ -81,6 +81,11 @@ static inline double mt_camera_depth(const mt_camera *camera, double t)
     return mt_camera_is_parallel(camera) ? 1.0 - t * (1.0 / MT_PARALLEL_REACH) : 1.0 / t;
 }
 
+static inline double mt_camera_distance(const mt_camera *camera, double depth)
+{
+    return mt_camera_is_parallel(camera) ? (1.0 - depth) * MT_PARALLEL_REACH : 1.0 / depth;
+}
+
 /* Unit vector from a point of the picture towards the eye. */
 static inline mt_vec3 mt_camera_toward_eye(const mt_camera *camera, double x, double y)
 {

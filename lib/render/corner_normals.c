@@ -306,6 +306,9 @@ static mt_vec3 given_normal(const mt_corner_normals *normals, mt_index face, mt_
 
 mt_vec3 mt_corner_normal(const mt_corner_normals *normals, mt_index face, mt_index corner)
 {
+    if (normals->flat) {
+        return unit_or_zero(mt_face_normal(normals, face));
+    }
     if (normals->given) {
         return given_normal(normals, face, corner);
     }

@@ -1,9 +1,12 @@
 /* Triangles that cross the plane of the eye are drawn without being cut, after Olano and Greer, "Triangle Scan
  * Conversion using 2D Homogeneous Coordinates" (1997): the weights with which a ray d meets the corners are d . (Pj x
  * Pk), linear over the picture wherever the corners lie, and of one sign exactly where the part in front is seen. */
+#include "lib/render/crossing.h"
+
 #include "lib/render/triangle.h"
 
-/* A corner as right, up and forward, in which the ray through a place of the picture is (a, b, 1), a and b from -1 to 1. */
+/* A corner as right, up and forward, in which the ray through a place of the picture is (a, b, 1), a and b from -1
+ * to 1. */
 static mt_vec3 in_camera(const mt_frame *frame, mt_index triangle, mt_index side)
 {
     const mt_model *model = frame->model;
@@ -59,7 +62,8 @@ pixel_box mt_crossing_box(const mt_frame *frame, mt_index triangle)
 static edge edge_of(const mt_frame *frame, mt_vec3 p, mt_vec3 q, double sign)
 {
     mt_vec3 n = mt_vec3_scale(mt_vec3_cross(p, q), sign);
-    double sizes = mt_vec3_max_abs(p) * mt_vec3_max_abs(q), shift = frame->displacement;
+    double sizes = mt_vec3_max_abs(p) * mt_vec3_max_abs(q),
+           shift = frame->precision.edges * (frame->precision.by_shape ? 64.0 : 1.0);
     shift /= fmin(1.0, fmin(frame->camera.half_width, frame->camera.half_height));
     double doubt = 4.0 * (shift * (mt_vec3_max_abs(p) + mt_vec3_max_abs(q) + shift) + sizes * DOUBLE_ROUNDING);
     double width = (double)MT_STEPS * frame->camera.width, height = (double)MT_STEPS * frame->camera.height;
@@ -93,7 +97,19 @@ void mt_crossing_setup(const mt_frame *frame, mt_index triangle, triangle_setup 
         setup->edges[i] = (edge){0, 0, 0, INFINITY};
     }
     double error = 2.0 * doubt * scale + slope * MT_STEPS * (double)FLOAT_ROUNDING;
-    setup->plane = !guess && error <= PLANE_ERROR * farthest && edge_on * scale <= PLANE_ERROR
-                       ? plane
-                       : vague_plane(INFINITY);
+    setup->plane =
+        !guess && error <= PLANE_ERROR * farthest && edge_on * scale <= PLANE_ERROR ? plane : vague_plane(INFINITY);
+}
+
+void mt_crossing_forms(const mt_frame *frame, mt_index triangle, double forms[3][3])
+{
+    mt_vec3 p[3];
+    for (mt_index i = 0; i < 3; i++) {
+        p[i] = in_camera(frame, triangle, i);
+    }
+    double determinant = mt_vec3_dot(p[0], mt_vec3_cross(p[1], p[2])), scale = 1.0 / fabs(determinant);
+    for (int i = 0; i < 3; i++) {
+        edge e = edge_of(frame, p[i == 2 ? 0 : i + 1], p[i == 0 ? 2 : i - 1], determinant < 0 ? -1.0 : 1.0);
+        forms[i][0] = e.a * scale, forms[i][1] = e.b * scale, forms[i][2] = e.c * scale;
+    }
 }

@@ -1,6 +1,9 @@
 /* Interpolation over a triangle is linear in space, hence linear over the picture once divided by depth. */
 #include "lib/render/facet.h"
 
+#include "lib/render/crossing.h"
+#include "lib/render/shadow.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -9,21 +12,6 @@
 #define TINY_SIZE (1.5 * MT_STEPS)
 #define SMALL_SIZE (3.0 * MT_STEPS)
 #define SMALL_COSINE 0.9986
-
-void mt_look_init(mt_look *look, const mt_frame *frame, const mt_corner_normals *normals,
-                  const unsigned char *face_colors, mt_vec3 up)
-{
-    memset(look, 0, sizeof *look);
-    look->frame = frame;
-    look->normals = normals;
-    mt_surface_init(frame->model->mesh, face_colors, &look->surface);
-    look->has_colors = look->surface.face_colors || look->surface.colors;
-    look->lighting = mt_lighting_default(&frame->camera, up);
-    look->front_color = mt_linear_color(&look->surface, 0.87, 0.825, 0.765);
-    look->back_color = mt_linear_color(&look->surface, 0.58, 0.68, 0.80);
-    look->back_tint = mt_vec3_make(0.62, 0.72, 0.86);
-    look->wire_color = mt_linear_color(&look->surface, 0.20, 0.25, 0.32);
-}
 
 static mt_vec3 toward_eye(const mt_look *look, double x, double y)
 {
@@ -67,28 +55,57 @@ static double size_of(const source *from)
     return x > y ? x : y;
 }
 
-/* y runs down the picture, so what turns with the clock there is seen from the back. */
-static bool is_front(const source *from)
+static bool is_placed(const source *from)
 {
+    return from->screen[0]->depth > 0 && from->screen[1]->depth > 0 && from->screen[2]->depth > 0;
+}
+
+/* Of a triangle that crosses the plane of the eye. */
+static bool crossing_is_front(const mt_look *look, const source *from)
+{
+    const mt_model *model = look->frame->model;
+    mt_vec3 p = mt_model_position(model, from->vertices[0]);
+    mt_vec3 a = mt_vec3_subtract(mt_model_position(model, from->vertices[1]), p);
+    mt_vec3 b = mt_vec3_subtract(mt_model_position(model, from->vertices[2]), p);
+    return mt_vec3_dot(mt_vec3_cross(a, b), mt_vec3_subtract(look->frame->camera.eye, p)) > 0;
+}
+
+/* y runs down the picture, so what turns with the clock there is seen from the back. */
+static bool is_front(const mt_look *look, const source *from)
+{
+    if (!is_placed(from)) {
+        return crossing_is_front(look, from);
+    }
     const mt_screen_vertex *p = from->screen[0], *q = from->screen[1], *r = from->screen[2];
     return (q->x - p->x) * (r->y - p->y) - (r->x - p->x) * (q->y - p->y) < 0;
 }
 
-static void prepare_geometry(const source *from, mt_facet *facet)
+static void prepare_geometry(const mt_look *look, const source *from, mt_facet *facet)
 {
+    if (!is_placed(from)) {
+        facet->x = facet->y = 0;
+        mt_crossing_forms(look->frame, facet->triangle, facet->forms);
+        return;
+    }
     const mt_screen_vertex *p = from->screen[0], *q = from->screen[1], *r = from->screen[2];
     double x1 = q->x - p->x, y1 = q->y - p->y, x2 = r->x - p->x, y2 = r->y - p->y;
     double scale = 1.0 / (x1 * y2 - x2 * y1);
+    const double second[3] = {y2 * scale, -x2 * scale, 0}, third[3] = {-y1 * scale, x1 * scale, 0};
+    bool parallel = mt_camera_is_parallel(&look->frame->camera);
     facet->x = p->x;
     facet->y = p->y;
-    facet->slopes[0][0] = y2 * scale, facet->slopes[0][1] = -x2 * scale;
-    facet->slopes[1][0] = -y1 * scale, facet->slopes[1][1] = x1 * scale;
     facet->depths[0] = p->depth, facet->depths[1] = q->depth, facet->depths[2] = r->depth;
+    for (int i = 0; i < 3; i++) {
+        double first = (i == 2 ? 1.0 : 0.0) - second[i] - third[i];
+        facet->forms[0][i] = first * (parallel ? 1.0 : p->depth);
+        facet->forms[1][i] = second[i] * (parallel ? 1.0 : q->depth);
+        facet->forms[2][i] = third[i] * (parallel ? 1.0 : r->depth);
+    }
 }
 
 static void prepare_colors(const mt_look *look, const source *from, mt_facet *facet)
 {
-    bool front = is_front(from);
+    bool front = is_front(look, from);
     facet->one_color = true;
     facet->colors[0] = facet->colors[1] = facet->colors[2] = front ? look->front_color : look->back_color;
     for (int i = 0; look->has_colors && i < 3; i++) {
@@ -106,10 +123,14 @@ static void prepare_normals(const mt_look *look, const source *from, mt_vec3 eye
 {
     mt_vec3 side = facing(mt_face_normal(look->normals, from->face), eye);
     facet->one_normal = true;
+    facet->face_normal = side;
     for (int i = 0; i < 3; i++) {
         mt_vec3 normal = mt_corner_normal(look->normals, from->face, from->corners[i]);
         facet->normals[i] = mt_vec3_dot(normal, normal) > 0 ? facing(normal, side) : eye;
         facet->one_normal = facet->one_normal && same(facet->normals[0], facet->normals[i]);
+    }
+    for (int i = 0; look->shadows && i < 3; i++) {
+        facet->positions[i] = mt_model_position(look->frame->model, from->vertices[i]);
     }
 }
 
@@ -119,11 +140,40 @@ static mt_vec3 unit_or(mt_vec3 a, mt_vec3 otherwise)
     return length > 0 ? mt_vec3_scale(a, 1.0 / length) : otherwise;
 }
 
+static mt_vec3 weigh(const mt_vec3 values[3], const double weights[3])
+{
+    return mt_vec3_make(values[0].x * weights[0] + values[1].x * weights[1] + values[2].x * weights[2],
+                        values[0].y * weights[0] + values[1].y * weights[1] + values[2].y * weights[2],
+                        values[0].z * weights[0] + values[1].z * weights[1] + values[2].z * weights[2]);
+}
+
+/* Where shadow rays start: on the surface that the normals at the corners make believe, above the flat triangle, so
+ * that it does not shade itself in steps (Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021). */
+static mt_vec3 smooth_position(const mt_facet *facet, const double weights[3])
+{
+    mt_vec3 p = weigh(facet->positions, weights);
+    if (facet->one_normal) {
+        return p;
+    }
+    mt_vec3 raised[3];
+    for (int i = 0; i < 3; i++) {
+        double below = mt_vec3_dot(mt_vec3_subtract(p, facet->positions[i]), facet->normals[i]);
+        raised[i] = mt_vec3_subtract(p, mt_vec3_scale(facet->normals[i], below < 0 ? below : 0.0));
+    }
+    return weigh(raised, weights);
+}
+
+static bool is_shadowed(const mt_look *look, const mt_facet *facet, const double weights[3])
+{
+    return mt_is_shadowed(look, smooth_position(facet, weights), facet->face_normal, facet->triangle);
+}
+
 /* Lights the facet as a whole where that does not show. */
 static bool light_small(const mt_look *look, double size, mt_vec3 eye, mt_facet *facet)
 {
+    static const double middle[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
     const mt_vec3 *n = facet->normals, *c = facet->colors;
-    if (size >= SMALL_SIZE || (size >= TINY_SIZE && !facet->one_color)) {
+    if (size >= SMALL_SIZE || (size >= TINY_SIZE && (!facet->one_color || look->shadows))) {
         return false;
     }
     mt_vec3 normal = unit_or(mt_vec3_add(mt_vec3_add(n[0], n[1]), n[2]), eye);
@@ -132,8 +182,14 @@ static bool light_small(const mt_look *look, double size, mt_vec3 eye, mt_facet 
     if (size >= TINY_SIZE && !flat) {
         return false;
     }
-    mt_vec3 mean = facet->one_color ? c[0] : mt_vec3_scale(mt_vec3_add(mt_vec3_add(c[0], c[1]), c[2]), 1.0 / 3.0);
-    facet->light = mt_shade(&look->lighting, normal, eye, mean);
+    mt_shading_point point = {normal, eye, c[0], facet->depths[0], 1.0};
+    if (!facet->one_color) {
+        point.color = mt_vec3_scale(mt_vec3_add(mt_vec3_add(c[0], c[1]), c[2]), 1.0 / 3.0);
+    }
+    if (look->shadows && is_shadowed(look, facet, middle)) {
+        point.lit = 0;
+    }
+    facet->light = mt_look_light(look, &point);
     return true;
 }
 
@@ -141,45 +197,65 @@ void mt_facet_prepare(const mt_look *look, mt_index triangle, mt_facet *facet)
 {
     source from = load(look, triangle);
     facet->triangle = triangle;
-    mt_vec3 eye = toward_eye(look, from.screen[0]->x, from.screen[0]->y);
+    if (look->seen) {
+        __atomic_store_n(&look->seen[from.face], 1, __ATOMIC_RELAXED);
+    }
+    bool placed = is_placed(&from);
+    mt_vec3 eye = placed ? toward_eye(look, from.screen[0]->x, from.screen[0]->y)
+                         : mt_vec3_normalize(mt_vec3_subtract(look->frame->camera.eye,
+                                                              mt_model_position(look->frame->model, from.vertices[0])));
     prepare_colors(look, &from, facet);
     prepare_normals(look, &from, eye, facet);
-    facet->is_small = light_small(look, size_of(&from), eye, facet);
+    facet->depths[0] = from.screen[0]->depth;
+    facet->is_small = placed && light_small(look, size_of(&from), eye, facet);
     if (!facet->is_small) {
-        prepare_geometry(&from, facet);
+        prepare_geometry(look, &from, facet);
     }
 }
 
-static double clamp_unit(double x)
+/* The corners' weights at a place, clamped into the triangle; returns the depth. */
+static double find_weights(const mt_look *look, const mt_facet *facet, double x, double y, double weights[3])
 {
-    return x > 0 ? (x < 1 ? x : 1.0) : 0.0;
-}
-
-static mt_vec3 weigh(const mt_vec3 values[3], const double weights[3])
-{
-    return mt_vec3_make(values[0].x * weights[0] + values[1].x * weights[1] + values[2].x * weights[2],
-                        values[0].y * weights[0] + values[1].y * weights[1] + values[2].y * weights[2],
-                        values[0].z * weights[0] + values[1].z * weights[1] + values[2].z * weights[2]);
-}
-
-mt_vec3 mt_facet_shade(const mt_look *look, const mt_facet *facet, double x, double y)
-{
-    double dx = x - facet->x, dy = y - facet->y;
-    double second = clamp_unit(facet->slopes[0][0] * dx + facet->slopes[0][1] * dy);
-    double third = clamp_unit(facet->slopes[1][0] * dx + facet->slopes[1][1] * dy);
-    double first = clamp_unit(1.0 - second - third);
-    double weights[3] = {first * facet->depths[0], second * facet->depths[1], third * facet->depths[2]};
-    double scale = 1.0 / (weights[0] + weights[1] + weights[2]);
+    double dx = x - facet->x, dy = y - facet->y, sum = 0, depth = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *form = facet->forms[i];
+        double weight = form[0] * dx + form[1] * dy + form[2];
+        weights[i] = weight > 0 ? weight : 0.0;
+        sum += weights[i];
+    }
+    double scale = sum > 0 ? 1.0 / sum : 0.0;
     for (int i = 0; i < 3; i++) {
         weights[i] *= scale;
+        depth += weights[i] * facet->depths[i];
     }
-    mt_vec3 eye = toward_eye(look, x, y);
-    mt_vec3 normal = facet->normals[0];
+    return mt_camera_is_parallel(&look->frame->camera) ? depth : sum;
+}
+
+mt_vec3 mt_facet_shade(const mt_look *look, const mt_facet *facet, double x, double y, double lit)
+{
+    double weights[3];
+    mt_shading_point point = {.toward_eye = toward_eye(look, x, y), .lit = lit};
+    point.depth = find_weights(look, facet, x, y, weights);
+    point.normal = facet->normals[0];
     if (!facet->one_normal) {
-        normal = unit_or(weigh(facet->normals, weights), eye);
+        point.normal = unit_or(weigh(facet->normals, weights), point.toward_eye);
     }
-    mt_vec3 color = facet->one_color ? facet->colors[0] : weigh(facet->colors, weights);
-    return mt_shade(&look->lighting, normal, eye, color);
+    point.color = facet->one_color ? facet->colors[0] : weigh(facet->colors, weights);
+    return mt_look_light(look, &point);
+}
+
+static bool is_lit(const void *user, const mt_look *look, double x, double y)
+{
+    const mt_facet *facet = (const mt_facet *)user;
+    double weights[3];
+    find_weights(look, facet, x, y, weights);
+    return !is_shadowed(look, facet, weights);
+}
+
+double mt_facet_lit(const mt_look *look, const mt_facet *facet, const mt_sampling *sampling, uint64_t samples,
+                    uint32_t x, uint32_t y)
+{
+    return mt_lit_share(look, sampling, samples, x, y, is_lit, facet);
 }
 
 mt_vec3 mt_dot_shade(const mt_look *look, mt_index vertex, double radius, double x, double y)
@@ -194,5 +270,5 @@ mt_vec3 mt_dot_shade(const mt_look *look, mt_index vertex, double radius, double
     if (!mt_surface_color(&look->surface, MT_NONE, MT_NONE, vertex, &color)) {
         color = look->wire_color;
     }
-    return mt_shade(&look->lighting, normal, toward_eye(look, x, y), color);
+    return mt_look_light(look, &(mt_shading_point){normal, toward_eye(look, x, y), color, center->depth, 1.0});
 }

@@ -46,16 +46,6 @@ static void project(void *user, uint64_t begin, uint64_t end)
     }
 }
 
-/* A displacement in space as steps on the picture. */
-static void bound_doubt(mt_frame *frame)
-{
-    const mt_camera *camera = &frame->camera;
-    double steps = 0.5 * MT_STEPS * fmax(camera->width / camera->half_width, camera->height / camera->half_height);
-    frame->displacement = mt_hit_displacement(frame->profile);
-    frame->doubt = mt_camera_is_parallel(camera) ? frame->displacement * steps : 0;
-    frame->doubt_per_depth = mt_camera_is_parallel(camera) ? 0 : frame->displacement * steps;
-}
-
 mt_status mt_frame_init(mt_context *context, const mt_model *model, const mt_camera *camera, unsigned sample_count,
                         mt_ray_profile profile, mt_frame *frame)
 {
@@ -64,7 +54,9 @@ mt_status mt_frame_init(mt_context *context, const mt_model *model, const mt_cam
     frame->camera = *camera;
     frame->profile = profile;
     frame->sampling = mt_sampling_make(sample_count);
-    bound_doubt(frame);
+    frame->precision = mt_hit_precision_of(profile);
+    frame->steps_per_unit =
+        0.5 * MT_STEPS * fmax(camera->width / camera->half_width, camera->height / camera->half_height);
     mt_index vertex_count = model->mesh->vertex_count;
     frame->vertices = (mt_screen_vertex *)mt_allocate_array(context, vertex_count, sizeof *frame->vertices);
     if (!frame->vertices) {

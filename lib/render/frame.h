@@ -36,10 +36,8 @@ typedef struct mt_frame {
     mt_screen_vertex *vertices;
     mt_sampling sampling;
     mt_ray_profile profile; /* of the hit test */
-    double displacement;    /* mt_hit_displacement */
-    /* The hit test sees an edge of a triangle within so many steps of its exact place: doubt + doubt_per_depth times the
-     * depth of the triangle's nearest vertex. */
-    double doubt, doubt_per_depth;
+    mt_hit_precision precision;
+    double steps_per_unit; /* of a unit at right angles to the view, in perspective at distance 1 */
 } mt_frame;
 
 /* sample_count is a square number up to MT_MAXIMUM_SAMPLES. */

@@ -106,7 +106,8 @@ static void place_eye(mt_camera *camera, const double reach[REACH_COUNT], bool c
 {
     double x = centered ? 0 : 0.5 * (reach[TO_RIGHT] - reach[TO_LEFT]);
     double y = centered ? 0 : 0.5 * (reach[TO_TOP] - reach[TO_BOTTOM]);
-    double width = fmax(reach[TO_RIGHT] - x, reach[TO_LEFT] + x), height = fmax(reach[TO_TOP] - y, reach[TO_BOTTOM] + y);
+    double width = fmax(reach[TO_RIGHT] - x, reach[TO_LEFT] + x),
+           height = fmax(reach[TO_TOP] - y, reach[TO_BOTTOM] + y);
     double z = fmax(width / (FILL * camera->half_width), height / (FILL * camera->half_height));
     move_eye(camera, x, y, -fmax(z, reach[TO_FRONT] + CLEARANCE));
 }
@@ -124,7 +125,8 @@ static void place_plane(mt_camera *camera, const double reach[REACH_COUNT], cons
 {
     double x = framing->has_target ? 0 : 0.5 * (reach[TO_RIGHT] - reach[TO_LEFT]);
     double y = framing->has_target ? 0 : 0.5 * (reach[TO_TOP] - reach[TO_BOTTOM]);
-    double width = fmax(reach[TO_RIGHT] - x, reach[TO_LEFT] + x), height = fmax(reach[TO_TOP] - y, reach[TO_BOTTOM] + y);
+    double width = fmax(reach[TO_RIGHT] - x, reach[TO_LEFT] + x),
+           height = fmax(reach[TO_TOP] - y, reach[TO_BOTTOM] + y);
     if (!(extent > 0)) {
         set_extent(camera, 1.0);
         extent = fmax(width / camera->half_width, height / camera->half_height) / FILL;
@@ -135,8 +137,8 @@ static void place_plane(mt_camera *camera, const double reach[REACH_COUNT], cons
     move_eye(camera, x + camera->shear_x * back, y + camera->shear_y * back, -back);
 }
 
-static mt_status fit_parallel(mt_context *context, mt_camera *camera, const mt_model *model,
-                              const mt_framing *framing, double tangent)
+static mt_status fit_parallel(mt_context *context, mt_camera *camera, const mt_model *model, const mt_framing *framing,
+                              double tangent)
 {
     double reach[REACH_COUNT], extent = 0;
     if (framing->has_eye && framing->fov_degrees > 0) {
@@ -158,9 +160,7 @@ mt_status mt_camera_fit(mt_context *context, mt_camera *camera, const mt_model *
         return fit_parallel(context, camera, model, framing, tangent);
     }
     set_extent(camera, tangent);
-    camera->eye = framing->has_eye      ? framing->eye
-                  : framing->has_target ? framing->target
-                                        : mt_vec3_make(0, 0, 0);
+    camera->eye = framing->has_eye ? framing->eye : framing->has_target ? framing->target : mt_vec3_make(0, 0, 0);
     double reach[REACH_COUNT];
     if (framing->has_eye && framing->fov_degrees > 0) {
         return MT_OK;

@@ -1,5 +1,6 @@
 /* The one hit test of a picture: both orders of drawing, and shadows, ask it and nothing else where a ray meets a
- * triangle. It works in the model's coordinates, where only what is drawn sets the scale; rays are in these, and triangles as mt_ray_triangle_load would load them. */
+ * triangle. It works in the model's coordinates, where only what is drawn sets the scale; rays are in these, and
+ * triangles as mt_ray_triangle_load would load them. */
 #ifndef MESHTOOL_RENDER_HIT_H
 #define MESHTOOL_RENDER_HIT_H
 
@@ -9,13 +10,23 @@
 
 #include <float.h>
 
-/* How far off a ray a triangle may lie that it hits, or not be hit by a ray so far inside, in units of the model. The
- * ray's setup bounds the displacement of corners by 8 units of 2^-24 for each unit of reach, and moves origins to
- * within a reach of 4. The fast test is wrong by more on badly shaped triangles. */
-static inline double mt_hit_displacement(mt_ray_profile profile)
+/* What the hit test knows of a triangle, in units of the model. */
+typedef struct mt_hit_precision {
+    double edges;  /* how far off a ray a triangle may lie that it hits, or not be hit by a ray so far inside */
+    double plane;  /* how far its plane may lie from where t is found */
+    bool by_shape; /* both grow with the ratio of a triangle's longest side to its height */
+} mt_hit_precision;
+
+/* The watertight test rounds corners to floats; its decision shears them in floats, which a ray's setup bounds by 8
+ * units of 2^-24 for each unit of reach, at most 3. */
+static inline mt_hit_precision mt_hit_precision_of(mt_ray_profile profile)
 {
-    static const double displacements[] = {0x1p-19, 0x1p-17, 0x1p-44};
-    return displacements[profile];
+    static const mt_hit_precision precisions[] = {
+        [MT_RAY_WATERTIGHT] = {0x1.8p-20, 0x1p-24, false},
+        [MT_RAY_FAST] = {0x1p-18, 0x1p-18, true},
+        [MT_RAY_EXACT] = {0x1p-44, 0x1p-44, false},
+    };
+    return precisions[profile];
 }
 
 static inline void mt_hit_load(const mt_model *model, mt_index triangle, mt_ray_profile profile, mt_ray_triangle *out)

@@ -25,9 +25,9 @@ typedef struct mt_model {
     mt_stroke *strokes;           /* wires and points; every vertex when there is nothing else */
     mt_index stroke_count;
     mt_index dot_count;
-    double scales[2]; /* powers of two that bring the coordinates to 1 */
-    mt_vec3 center;   /* of what is drawn, after these */
-    double unit;      /* power of two that then brings the extent to 1 */
+    double scales[2];   /* powers of two that bring the coordinates to 1 */
+    mt_vec3 center;     /* of what is drawn, after these */
+    double unit;        /* power of two that then brings the extent to 1 */
     mt_vec3 low, high;  /* bounds of what is drawn, after all this */
     mt_ray_space space; /* in which rays and triangles given in these coordinates meet */
 } mt_model;

@@ -3,10 +3,13 @@
  * the middle of the samples that it covers there, and the samples are averaged in linear light. */
 #include "lib/render/picture.h"
 
+#include "lib/render/changes.h"
 #include "lib/render/raster.h"
 #include "lib/render/resolve.h"
 
 #include <meshtool/checked.h>
+
+#include <string.h>
 
 /* Tiles between two reports of progress. */
 #define TILES_PER_REPORT 256
@@ -14,31 +17,22 @@
 /* Tiles that a thread takes at a time. */
 #define TILES_PER_BLOCK 4
 
-static mt_tile_range primitive_range(const void *user, mt_index number)
+static mt_tile_range triangle_range(const void *user, mt_index number)
 {
-    const mt_picture *picture = (const mt_picture *)user;
-    mt_index triangle_count = picture->frame->model->triangulation.triangle_count;
-    return number < triangle_count ? mt_triangle_range(picture->frame, number)
-                                   : mt_stroke_range(&picture->strokes, number - triangle_count);
+    return mt_triangle_range((const mt_frame *)user, number);
 }
 
-static void primitive_narrow(const void *user, mt_index number, uint32_t tile_y, mt_tile_range *row)
+static void triangle_narrow(const void *user, mt_index number, uint32_t tile_y, mt_tile_range *row)
 {
-    const mt_picture *picture = (const mt_picture *)user;
-    mt_index triangle_count = picture->frame->model->triangulation.triangle_count;
-    if (number < triangle_count) {
-        mt_triangle_narrow(picture->frame, number, tile_y, row);
-    } else {
-        mt_stroke_narrow(&picture->strokes, number - triangle_count, tile_y, row);
-    }
+    mt_triangle_narrow((const mt_frame *)user, number, tile_y, row);
 }
 
-static mt_tile_range mark_range(const void *user, mt_index number)
+static mt_tile_range stroke_range(const void *user, mt_index number)
 {
     return mt_stroke_range((const mt_stroke_set *)user, number);
 }
 
-static void mark_narrow(const void *user, mt_index number, uint32_t tile_y, mt_tile_range *row)
+static void stroke_narrow(const void *user, mt_index number, uint32_t tile_y, mt_tile_range *row)
 {
     mt_stroke_narrow((const mt_stroke_set *)user, number, tile_y, row);
 }
@@ -51,133 +45,147 @@ static mt_status sort(mt_context *context, mt_picture *picture)
     }
     const mt_camera *camera = &picture->frame->camera;
     int part = mt_part_begin(context, "tile lists", "triangles, lines and dots sorted by 32 x 32 pixels");
-    mt_binned binned = {picture, (mt_index)count, primitive_range, primitive_narrow};
-    mt_status status = mt_bins_init(context, &binned, camera->width, camera->height, &picture->bins);
-    if (status == MT_OK) {
-        mt_binned marks = {&picture->marks, picture->marks.count, mark_range, mark_narrow};
-        status = mt_bins_init(context, &marks, camera->width, camera->height, &picture->mark_bins);
+    mt_index triangle_count = picture->rays ? 0 : picture->frame->model->triangulation.triangle_count;
+    const mt_binned binned[] = {{picture->frame, triangle_count, triangle_range, triangle_narrow},
+                                {&picture->strokes, picture->strokes.count, stroke_range, stroke_narrow},
+                                {&picture->marks, picture->marks.count, stroke_range, stroke_narrow}};
+    mt_bins *bins[] = {&picture->triangle_bins, &picture->stroke_bins, &picture->mark_bins};
+    mt_status status = MT_OK;
+    for (int i = 0; status == MT_OK && i < 3; i++) {
+        status = mt_bins_init(context, &binned[i], camera->width, camera->height, bins[i]);
     }
     mt_part_end(context, part);
     return status;
 }
 
-/* Draws primitives in ascending order: the triangles among them, then the strokes. */
-static void draw_run(const mt_picture *picture, mt_tile *tile, const mt_index *numbers, size_t count)
-{
-    mt_index triangle_count = picture->frame->model->triangulation.triangle_count;
-    size_t triangles = count;
-    if (count > 0 && numbers[count - 1] >= triangle_count) {
-        size_t low = 0;
-        while (low < triangles) {
-            size_t middle = low + (triangles - low) / 2;
-            if (numbers[middle] < triangle_count) {
-                low = middle + 1;
-            } else {
-                triangles = middle;
-            }
-        }
-    }
-    mt_draw_triangles(picture->frame, tile, numbers, triangles);
-    mt_draw_strokes(&picture->strokes, tile, numbers + triangles, count - triangles, triangle_count);
-}
+/* The numbers listed for one tile. */
+typedef struct listed {
+    const mt_index *numbers;
+    size_t count;
+} listed;
 
-/* Draws the tile's own primitives and those listed for all tiles, merged in ascending order. */
-static void draw_primitives(const mt_picture *picture, mt_tile *tile, size_t tile_number)
+static listed listed_in(const mt_bins *bins, size_t tile_number)
 {
-    const mt_bins *bins = &picture->bins;
-    const mt_index *numbers = bins->numbers + bins->firsts[tile_number];
-    size_t count = bins->firsts[tile_number + 1] - bins->firsts[tile_number], at = 0;
-    for (mt_index i = 0; i < bins->large_count; i++) {
-        size_t begin = at;
-        while (at < count && numbers[at] < bins->large[i]) {
-            at++;
-        }
-        draw_run(picture, tile, numbers + begin, at - begin);
-        draw_run(picture, tile, &bins->large[i], 1);
-    }
-    draw_run(picture, tile, numbers + at, count - at);
-}
-
-static void draw_marks(const mt_picture *picture, mt_tile *tile, size_t tile_number)
-{
-    const mt_bins *bins = &picture->mark_bins;
     size_t first = bins->firsts[tile_number];
-    mt_draw_marks(&picture->marks, tile, bins->numbers + first, bins->firsts[tile_number + 1] - first);
-    mt_draw_marks(&picture->marks, tile, bins->large, bins->large_count);
+    return (listed){bins->numbers + first, bins->firsts[tile_number + 1] - first};
+}
+
+static bool is_touched(const mt_bins *bins, size_t tile_number)
+{
+    return bins->large_count > 0 || listed_in(bins, tile_number).count > 0;
+}
+
+/* Lines and dots are compared with one depth for each triangle and sample, however it was found. */
+static void settle_depths(const mt_picture *picture, mt_tile *tile)
+{
+    for (uint32_t y = tile->y; y < tile->y + tile->height; y++) {
+        for (uint32_t x = tile->x; x < tile->x + tile->width; x++) {
+            mt_triangle_depths(picture->frame, tile, x, y);
+        }
+    }
+}
+
+/* What is seen: triangles, then the strokes among them, then the marks over them. */
+static void draw_layers(const mt_picture *picture, mt_tile *tile, size_t tile_number)
+{
+    const mt_bins *triangles = &picture->triangle_bins, *strokes = &picture->stroke_bins, *marks = &picture->mark_bins;
+    listed own = listed_in(triangles, tile_number);
+    if (picture->rays) {
+        mt_trace_triangles(picture->frame, picture->rays, tile);
+    } else {
+        mt_draw_triangles(picture->frame, tile, triangles->large, triangles->large_count);
+        mt_draw_triangles(picture->frame, tile, own.numbers, own.count);
+    }
+    if (is_touched(strokes, tile_number) || is_touched(marks, tile_number)) {
+        settle_depths(picture, tile);
+        mt_index first = picture->frame->model->triangulation.triangle_count;
+        own = listed_in(strokes, tile_number);
+        mt_draw_strokes(&picture->strokes, tile, strokes->large, strokes->large_count, first);
+        mt_draw_strokes(&picture->strokes, tile, own.numbers, own.count, first);
+    }
+    if (tile->marks) {
+        own = listed_in(marks, tile_number);
+        mt_draw_marks(&picture->marks, tile, own.numbers, own.count);
+        mt_draw_marks(&picture->marks, tile, marks->large, marks->large_count);
+    }
 }
 
 static bool is_blank(const mt_picture *picture, size_t tile_number)
 {
-    const mt_bins *bins = &picture->bins, *marks = &picture->mark_bins;
-    return bins->large_count == 0 && bins->firsts[tile_number] == bins->firsts[tile_number + 1] &&
-           marks->large_count == 0 && marks->firsts[tile_number] == marks->firsts[tile_number + 1];
-}
-
-static void clear(mt_tile *tile)
-{
-    size_t count = (size_t)tile->height * MT_TILE_SIZE * tile->lane_count;
-    for (size_t lane = 0; lane < count; lane++) {
-        tile->depths[lane] = 0;
-        tile->numbers[lane] = MT_NONE;
-    }
-    for (size_t pixel = 0; pixel < (size_t)tile->height * MT_TILE_SIZE; pixel++) {
-        tile->floors[pixel] = 0;
-    }
-    for (size_t lane = 0; tile->marks && lane < count; lane++) {
-        tile->marks[lane] = MT_NONE;
-    }
+    return !picture->rays && !picture->look->ground.is_drawn && !is_touched(&picture->triangle_bins, tile_number) &&
+           !is_touched(&picture->stroke_bins, tile_number) && !is_touched(&picture->mark_bins, tile_number);
 }
 
 typedef struct draw_task {
     mt_context *context;
     const mt_picture *picture;
+    const mt_picture *fine; /* the same with more samples; NULL: none */
     size_t first_tile;
-    uint64_t *covered; /* per tile of the picture */
-    bool *failed;      /* per tile: memory was missing */
+    uint64_t *covered, *refined; /* per tile of the picture */
+    bool *failed;                /* per tile: memory was missing */
 } draw_task;
 
-static uint64_t draw_tile(const mt_picture *picture, mt_tile *tile, mt_facet_cache *cache, size_t tile_number)
+/* What a thread draws in. */
+typedef struct canvas {
+    mt_tile tile, fine;
+    mt_facet_cache *cache;
+} canvas;
+
+static bool canvas_init(const draw_task *task, canvas *out)
 {
-    const mt_camera *camera = &picture->frame->camera;
-    tile->x = (uint32_t)(tile_number % picture->bins.tiles_x) * MT_TILE_SIZE;
-    tile->y = (uint32_t)(tile_number / picture->bins.tiles_x) * MT_TILE_SIZE;
-    tile->width = camera->width - tile->x < MT_TILE_SIZE ? camera->width - tile->x : MT_TILE_SIZE;
-    tile->height = camera->height - tile->y < MT_TILE_SIZE ? camera->height - tile->y : MT_TILE_SIZE;
+    memset(out, 0, sizeof *out);
+    bool marked = task->picture->marks.count > 0, fine = task->fine != NULL;
+    out->cache = (mt_facet_cache *)mt_try_allocate(task->context, sizeof *out->cache);
+    return out->cache && mt_tile_init(task->context, task->picture->frame, marked, &out->tile) &&
+           (!fine || (mt_tile_init(task->context, task->fine->frame, marked, &out->fine) &&
+                      mt_tile_mask(task->context, &out->fine)));
+}
+
+static void canvas_release(const draw_task *task, canvas *own)
+{
+    mt_tile_release(task->context, &own->tile);
+    mt_tile_release(task->context, &own->fine);
+    mt_free(task->context, own->cache);
+}
+
+static void draw_tile(const draw_task *task, canvas *own, size_t tile_number)
+{
+    const mt_picture *picture = task->picture;
+    mt_tile_place(&own->tile, &picture->frame->camera, tile_number);
     if (is_blank(picture, tile_number)) {
-        mt_resolve_blank(picture, tile);
-        return 0;
+        mt_resolve_blank(picture, &own->tile);
+        return;
     }
-    clear(tile);
-    draw_primitives(picture, tile, tile_number);
-    if (tile->marks) {
-        draw_marks(picture, tile, tile_number);
+    mt_tile_clear(&own->tile);
+    draw_layers(picture, &own->tile, tile_number);
+    task->covered[tile_number] = mt_resolve_tile(picture, &own->tile, own->cache);
+    if (task->fine) {
+        mt_tile_place(&own->fine, &picture->frame->camera, tile_number);
+        task->refined[tile_number] = mt_find_changes(picture, &own->tile, own->fine.wanted);
+        if (task->refined[tile_number] > 0) {
+            mt_tile_clear(&own->fine);
+            draw_layers(task->fine, &own->fine, tile_number);
+            mt_resolve_tile(task->fine, &own->fine, own->cache);
+        }
     }
-    return mt_resolve_tile(picture, tile, cache);
 }
 
 static void draw_tiles(void *user, uint64_t begin, uint64_t end)
 {
     const draw_task *task = (const draw_task *)user;
-    const mt_picture *picture = task->picture;
-    unsigned lane_count = picture->frame->sampling.lane_count;
-    size_t lanes = mt_tile_lane_count(lane_count);
-    uint64_t layers = picture->marks.count > 0 ? 3 : 2;
-    mt_tile tile = {.lane_count = lane_count};
-    tile.depths = (float *)mt_try_allocate(task->context, (layers * lanes + MT_TILE_SIZE * MT_TILE_SIZE) * 4);
-    mt_facet_cache *cache = (mt_facet_cache *)mt_try_allocate(task->context, sizeof *cache);
-    if (tile.depths && cache) {
-        tile.numbers = (mt_index *)(void *)(tile.depths + lanes);
-        tile.marks = layers == 3 ? tile.numbers + lanes : NULL;
-        tile.floors = tile.depths + layers * lanes;
-        mt_facet_cache_clear(cache);
+    canvas own;
+    bool ready = canvas_init(task, &own);
+    if (ready) {
+        mt_facet_cache_clear(own.cache);
     }
     for (uint64_t i = begin; i < end; i++) {
         size_t number = task->first_tile + (size_t)i;
-        task->failed[number] = !tile.depths || !cache;
-        task->covered[number] = task->failed[number] ? 0 : draw_tile(picture, &tile, cache, number);
+        task->failed[number] = !ready;
+        if (ready) {
+            draw_tile(task, &own, number);
+        }
     }
-    mt_free(task->context, tile.depths);
-    mt_free(task->context, cache);
+    canvas_release(task, &own);
 }
 
 static mt_status draw_all(mt_context *context, draw_task *task, size_t tile_count)
@@ -199,25 +207,42 @@ static mt_status draw_all(mt_context *context, draw_task *task, size_t tile_coun
     return MT_OK;
 }
 
+static mt_status draw_task_run(mt_context *context, draw_task *task, mt_picture *picture, size_t tile_count)
+{
+    task->covered = (uint64_t *)mt_allocate_array_zeroed(context, tile_count, sizeof *task->covered);
+    task->refined = (uint64_t *)mt_allocate_array_zeroed(context, tile_count, sizeof *task->refined);
+    task->failed = (bool *)mt_allocate_array(context, tile_count, sizeof *task->failed);
+    bool ready = task->covered && task->refined && task->failed;
+    mt_status status = ready ? draw_all(context, task, tile_count) : mt_context_error(context)->status;
+    picture->covered_samples = picture->fine_pixels = 0;
+    for (size_t tile = 0; status == MT_OK && tile < tile_count; tile++) {
+        picture->covered_samples += task->covered[tile];
+        picture->fine_pixels += task->refined[tile];
+    }
+    mt_free(context, task->covered);
+    mt_free(context, task->refined);
+    mt_free(context, task->failed);
+    return status;
+}
+
 static mt_status draw(mt_context *context, mt_picture *picture)
 {
-    size_t tile_count = (size_t)picture->bins.tiles_x * picture->bins.tiles_y;
     draw_task task = {.context = context, .picture = picture};
-    task.covered = (uint64_t *)mt_allocate_array(context, tile_count, sizeof *task.covered);
-    task.failed = (bool *)mt_allocate_array(context, tile_count, sizeof *task.failed);
-    mt_status status = task.covered && task.failed ? MT_OK : mt_context_error(context)->status;
-    if (status == MT_OK) {
-        int part =
-            mt_part_begin(context, "depth buffer and shading", "tile by tile, once for each triangle in a pixel");
-        status = draw_all(context, &task, tile_count);
-        mt_part_end(context, part);
+    mt_frame fine_frame;
+    mt_picture fine;
+    if (picture->fine_samples > 0) {
+        fine_frame = *picture->frame;
+        fine_frame.sampling = mt_sampling_make(picture->fine_samples);
+        fine = *picture;
+        fine.frame = fine.strokes.frame = fine.marks.frame = &fine_frame;
+        task.fine = &fine;
     }
-    picture->covered_samples = 0;
-    for (size_t tile = 0; status == MT_OK && tile < tile_count; tile++) {
-        picture->covered_samples += task.covered[tile];
-    }
-    mt_free(context, task.covered);
-    mt_free(context, task.failed);
+    int part = picture->rays ? mt_part_begin(context, "rays and shading", "a ray for each sample, asked for")
+                             : mt_part_begin(context, "depth buffer and shading",
+                                             "tile by tile, once for each triangle in a pixel");
+    size_t tile_count = (size_t)picture->triangle_bins.tiles_x * picture->triangle_bins.tiles_y;
+    mt_status status = draw_task_run(context, &task, picture, tile_count);
+    mt_part_end(context, part);
     return status;
 }
 
@@ -227,7 +252,8 @@ mt_status mt_picture_draw(mt_context *context, mt_picture *picture)
     if (status == MT_OK) {
         status = draw(context, picture);
     }
-    mt_bins_release(context, &picture->bins);
+    mt_bins_release(context, &picture->triangle_bins);
+    mt_bins_release(context, &picture->stroke_bins);
     mt_bins_release(context, &picture->mark_bins);
     return status;
 }

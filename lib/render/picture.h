@@ -4,6 +4,7 @@
 
 #include "lib/render/facet.h"
 #include "lib/render/stroke.h"
+#include "lib/render/trace.h"
 
 #include <meshtool/image.h>
 
@@ -13,17 +14,27 @@ typedef struct mt_backdrop {
     bool transparent;
 } mt_backdrop;
 
+static inline mt_vec3 mt_backdrop_at(const mt_backdrop *backdrop, uint32_t y, uint32_t height)
+{
+    double t = (y + 0.5) / height;
+    return mt_vec3_add(mt_vec3_scale(backdrop->top, 1.0 - t), mt_vec3_scale(backdrop->bottom, t));
+}
+
 typedef struct mt_picture {
     const mt_frame *frame;
     const mt_look *look;
+    const mt_occluder *rays;          /* what rays find in image order; NULL: the raster finds what is seen */
     mt_stroke_set strokes;            /* of the mesh */
     mt_stroke_set marks;              /* over it; count 0: none */
     const unsigned char *mark_colors; /* sRGB triples, one a mark */
-    mt_bins bins;                     /* triangles, then strokes */
-    mt_bins mark_bins;
+    mt_index faint_mark;              /* marks from here on have this opacity, and do not shine through */
+    double faint_opacity;
+    unsigned fine_samples; /* where the picture changes within a pixel; 0: as everywhere */
+    mt_bins triangle_bins, stroke_bins, mark_bins;
     mt_backdrop backdrop;
     mt_image *image;
     uint64_t covered_samples; /* set by mt_picture_draw: samples that show the mesh */
+    uint64_t fine_pixels;     /* likewise: that took fine_samples */
 } mt_picture;
 
 /* Sorts everything into tiles, and draws and shades them one by one, many at a time. */

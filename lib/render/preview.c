@@ -1,15 +1,16 @@
-/* The order of a preview: what is drawn, its normals, a view, a frame, tiles. */
-#include <meshtool/preview.h>
-
-#include "lib/render/framing.h"
-#include "lib/render/picture.h"
-#include "lib/render/view.h"
+/* The order of a preview: what is drawn, its colours and normals; then for each picture a camera, a frame, tiles. */
+#include "lib/render/coloring.h"
+#include "lib/render/ground.h"
+#include "lib/render/overlay.h"
+#include "lib/render/series.h"
 
 #include <math.h>
 #include <string.h>
 
 #define DEFAULT_SIZE 1024
 #define DEFAULT_SAMPLES 16
+#define ADAPTIVE_COARSE 4
+#define ADAPTIVE_FINE 64
 
 /* No regular solid or prism has this angle: prisms turn by 360/n, so 45, 40 and 36 are taken, and an icosahedron
  * by 41.8. */
@@ -18,19 +19,8 @@
 /* When the mesh covers less than a line of this many pixels' width across the picture, faces are outlined. */
 #define FAINT_WIDTH 0.25
 
-/* What a preview makes on its way; released whatever happened. */
-typedef struct job {
-    const mt_preview_options *options;
-    unsigned samples;
-    mt_model model;
-    mt_corner_normals normals;
-    mt_frame frame;
-    mt_look look;
-    mt_stroke *marks; /* dots, then lines */
-    unsigned char *mark_colors;
-    mt_index mark_count;
-    mt_picture picture;
-} job;
+/* With fewer triangles a ray tries them all: a tree would not be paid for. */
+#define FEW_TRIANGLES 64
 
 static mt_status check_samples(mt_context *context, unsigned samples)
 {
@@ -41,6 +31,30 @@ static mt_status check_samples(mt_context *context, unsigned samples)
     }
     return mt_fail(context, MT_ERROR_ARGUMENT, "samples a pixel are a square number from 1 to %d, not %u",
                    MT_MAXIMUM_SAMPLES, samples);
+}
+
+static bool is_direction(const double v[3])
+{
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]) && (v[0] != 0 || v[1] != 0 || v[2] != 0);
+}
+
+static mt_status check_view(mt_context *context, const mt_preview_options *options)
+{
+    static const double zero[3] = {0, 0, 0};
+    if (!(options->fov_degrees >= 0 && options->fov_degrees < 180)) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "the field of view lies between 0 and 180 degrees, not at %g",
+                       options->fov_degrees);
+    }
+    if (options->has_up && !is_direction(options->up)) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "the up direction is not zero and finite");
+    }
+    const double *eye = options->has_eye ? options->eye : zero, *target = options->has_target ? options->target : zero;
+    for (int axis = 0; axis < 3; axis++) {
+        if (!isfinite(eye[axis]) || !isfinite(target[axis])) {
+            return mt_fail(context, MT_ERROR_ARGUMENT, "the eye and the target have finite coordinates");
+        }
+    }
+    return MT_OK;
 }
 
 static mt_status check_options(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options)
@@ -60,81 +74,158 @@ static mt_status check_options(mt_context *context, const mt_mesh *mesh, const m
                            options->edge_marks[i], mesh->vertex_count);
         }
     }
-    return options->samples ? check_samples(context, options->samples) : MT_OK;
+    mt_status status = check_view(context, options);
+    bool counted = options->samples != 0 && options->samples != MT_SAMPLES_ADAPTIVE;
+    return status == MT_OK && counted ? check_samples(context, options->samples) : status;
 }
 
-/* One mark in the color that `colors` holds at `color`, or in the usual one. */
-static void append_mark(job *j, mt_stroke mark, const unsigned char *colors, size_t color, const unsigned char usual[3])
+static mt_status make_normals(mt_context *context, mt_preview_series *series)
 {
-    memcpy(j->mark_colors + 3 * (size_t)j->mark_count, colors ? colors + 3 * color : usual, 3);
-    j->marks[j->mark_count++] = mark;
+    const mt_preview_options *options = &series->options;
+    mt_status status = mt_corner_normals_init(context, &series->model, &series->normals);
+    if (status != MT_OK) {
+        return status;
+    }
+    if (options->shading == MT_SHADING_FLAT) {
+        series->normals.flat = true;
+        mt_part_skip(context, "corner normals", "flat shading: each face has its own");
+        return MT_OK;
+    }
+    int part = mt_part_begin(context, "corner normals", "faces meet smoothly below the crease angle");
+    double crease = options->crease_degrees > 0 ? options->crease_degrees : DEFAULT_CREASE;
+    bool smooth = options->shading == MT_SHADING_SMOOTH;
+    status = mt_corner_normals_build(context, &series->model, smooth ? 180.0 : crease, &series->normals);
+    mt_part_end(context, part);
+    return status;
 }
 
-static mt_status collect_marks(mt_context *context, job *j)
+/* Why there is a tree, or none. */
+static mt_status make_occluder(mt_context *context, mt_preview_series *series)
 {
-    static const unsigned char orange[3] = {250, 140, 13}, red[3] = {219, 26, 41};
-    const mt_preview_options *options = j->options;
-    mt_index vertex_count = options->vertex_marks ? j->model.mesh->vertex_count : 0, dot_count = 0;
-    for (mt_index vertex = 0; vertex < vertex_count; vertex++) {
-        dot_count += options->vertex_marks[vertex] != 0;
+    const mt_preview_options *options = &series->options;
+    series->by_rays = options->method == MT_METHOD_RAY;
+    series->has_occluder = series->by_rays || options->shadows;
+    mt_index count = series->model.triangulation.triangle_count;
+    bool tree = options->acceleration == MT_ACCELERATION_AABB ||
+                (options->acceleration == MT_ACCELERATION_AUTO && count > FEW_TRIANGLES);
+    if (!options->shadows) {
+        mt_part_skip(context, "shadow rays", "no shadows asked for");
     }
-    uint64_t count = (uint64_t)dot_count + options->edge_mark_count;
-    if (count > MT_INDEX_MAX / 2) {
-        return mt_fail(context, MT_ERROR_TOO_LARGE, "%llu marks are too many for one picture",
-                       (unsigned long long)count);
+    if (!series->has_occluder) {
+        mt_part_skip(context, "tree", "primary rays only: triangles go to the pixels that they cover");
+        return MT_OK;
     }
-    j->marks = (mt_stroke *)mt_allocate_array(context, count, sizeof *j->marks);
-    j->mark_colors = (unsigned char *)mt_allocate_array(context, count, 3);
-    if (!j->marks || !j->mark_colors) {
+    if (!tree) {
+        mt_part_skip(context, "tree",
+                     options->acceleration == MT_ACCELERATION_NONE
+                         ? "asked to do without: every ray meets every triangle"
+                         : "few triangles: every ray meets them all");
+    }
+    return mt_occluder_init(context, &series->model, (mt_ray_profile)options->triangle_test, tree, &series->occluder);
+}
+
+static mt_status build(mt_context *context, const mt_mesh *mesh, mt_preview_series *series)
+{
+    int part = mt_part_begin(context, "model", "what is drawn, its bounds, triangles");
+    mt_status status = mt_model_init(context, mesh, &series->model);
+    mt_part_end(context, part);
+    if (status == MT_OK) {
+        status = mt_marks_init(context, &series->model, &series->options, &series->marks);
+    }
+    if (status == MT_OK) {
+        status = mt_coloring_faces(context, &series->model, series->options.coloring, &series->face_colors);
+    }
+    if (status == MT_OK) {
+        status = make_normals(context, series);
+    }
+    return status == MT_OK ? make_occluder(context, series) : status;
+}
+
+mt_status mt_preview_series_create(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options,
+                                   mt_preview_series **out)
+{
+    static const mt_preview_options defaults = {0};
+    *out = NULL;
+    options = options ? options : &defaults;
+    mt_status status = check_options(context, mesh, options);
+    if (status != MT_OK) {
+        return status;
+    }
+    mt_preview_series *series = (mt_preview_series *)mt_allocate_zeroed(context, sizeof *series);
+    if (!series) {
         return mt_context_error(context)->status;
     }
-    for (mt_index vertex = 0; vertex < vertex_count; vertex++) {
-        if (options->vertex_marks[vertex]) {
-            append_mark(j, (mt_stroke){vertex, vertex}, options->vertex_mark_colors, vertex, orange);
-        }
+    series->options = *options;
+    series->options.width = options->width ? options->width : DEFAULT_SIZE;
+    series->options.height = options->height ? options->height : DEFAULT_SIZE;
+    bool adaptive = options->samples == MT_SAMPLES_ADAPTIVE;
+    series->samples = adaptive ? ADAPTIVE_COARSE : options->samples ? options->samples : DEFAULT_SAMPLES;
+    series->fine_samples = adaptive ? ADAPTIVE_FINE : 0;
+    status = build(context, mesh, series);
+    if (status != MT_OK) {
+        mt_preview_series_destroy(context, series);
+        return status;
     }
-    for (size_t i = 0; i < options->edge_mark_count; i++) {
-        mt_stroke edge = {options->edge_marks[2 * i], options->edge_marks[2 * i + 1]};
-        append_mark(j, edge, options->edge_mark_colors, i, red);
-    }
+    *out = series;
     return MT_OK;
 }
 
-static mt_status make_normals(mt_context *context, job *j)
+void mt_preview_series_destroy(mt_context *context, mt_preview_series *series)
 {
-    int part = mt_part_begin(context, "corner normals", "faces meet smoothly below the crease angle");
-    double crease = j->options->crease_degrees > 0 ? j->options->crease_degrees : DEFAULT_CREASE;
-    mt_status status = mt_corner_normals_init(context, &j->model, &j->normals);
+    if (series) {
+        mt_occluder_release(context, &series->occluder);
+        mt_marks_release(context, &series->marks);
+        mt_corner_normals_release(context, &series->normals);
+        mt_model_release(context, &series->model);
+        mt_free(context, series->face_colors);
+        mt_free(context, series);
+    }
+}
+
+/* What one picture needs beside the series. */
+typedef struct job {
+    mt_preview_series *series;
+    mt_view view;
+    mt_frame frame;
+    mt_look look;
+    mt_picture picture;
+} job;
+
+static mt_status make_frame(mt_context *context, job *j, mt_view_name view, double turn)
+{
+    mt_preview_series *series = j->series;
+    mt_camera camera;
+    int part = mt_part_begin(context, "projected vertices", "where each falls in the picture, and how deep");
+    mt_status status = mt_series_camera(context, series, view, turn, &camera, &j->view);
+    /* A marked vertex may be in nothing that is drawn; its mark is, where it falls into the picture. */
+    for (mt_index i = 0; i < series->marks.count; i++) {
+        mt_model_draw_vertex(&series->model, series->marks.strokes[i].a);
+        mt_model_draw_vertex(&series->model, series->marks.strokes[i].b);
+    }
     if (status == MT_OK) {
-        status = mt_corner_normals_build(context, &j->model, crease, &j->normals);
+        mt_ray_profile profile = (mt_ray_profile)series->options.triangle_test;
+        status = mt_frame_init(context, &series->model, &camera, series->samples, profile, &j->frame);
     }
     mt_part_end(context, part);
     return status;
 }
 
-static mt_status make_frame(mt_context *context, job *j)
+static mt_status make_look(mt_context *context, job *j)
 {
-    const mt_preview_options *options = j->options;
-    mt_camera camera = {.width = options->width ? options->width : DEFAULT_SIZE,
-                        .height = options->height ? options->height : DEFAULT_SIZE};
-    mt_view view = mt_view_default(&j->normals);
-    mt_camera_frame(&camera, view.toward_eye, view.up);
-    int part = mt_part_begin(context, "projected vertices", "on a grid that makes edge tests exact");
-    mt_status status = mt_camera_fit(context, &camera, &j->model, &(mt_framing){0});
-    /* A marked vertex may be in nothing that is drawn; its mark is, where it falls into the picture. */
-    for (mt_index i = 0; i < j->mark_count; i++) {
-        mt_model_draw_vertex(&j->model, j->marks[i].a);
-        mt_model_draw_vertex(&j->model, j->marks[i].b);
+    const mt_preview_series *series = j->series;
+    const mt_preview_options *options = &series->options;
+    const unsigned char *colors = series->face_colors ? series->face_colors : options->face_colors;
+    const mt_mesh *colored = options->coloring == MT_COLORING_DEFAULT ? series->model.mesh : NULL;
+    mt_look_init(&j->look, &j->frame, &series->normals, colored, colors, j->view.axis);
+    j->look.shadows = options->shadows ? &series->occluder : NULL;
+    mt_coloring_apply(options, &j->look);
+    if (!options->ground) {
+        mt_part_skip(context, "ground", "not asked for");
+        return MT_OK;
     }
-    if (status == MT_OK) {
-        status = mt_frame_init(context, &j->model, &camera, j->samples, MT_RAY_WATERTIGHT, &j->frame);
-    }
-    mt_part_end(context, part);
-    if (status != MT_OK) {
-        return status;
-    }
-    mt_look_init(&j->look, &j->frame, &j->normals, options->face_colors, view.up);
-    return MT_OK;
+    mt_status status = mt_ground_init(context, &series->model, j->view.axis, &j->look.ground);
+    j->look.ground.color = mt_linear_color(&j->look.surface, 0.86, 0.865, 0.875);
+    return status;
 }
 
 static mt_backdrop make_backdrop(const mt_preview_options *options, const mt_surface *surface)
@@ -151,23 +242,32 @@ static mt_backdrop make_backdrop(const mt_preview_options *options, const mt_sur
     return backdrop;
 }
 
-/* Widths grow with the picture, and dots shrink where there are many. */
+/* Widths grow with the picture, and dots shrink where there are many; a dense wireframe pales, so that the surface is
+ * still seen. */
 static void set_strokes(job *j)
 {
     const mt_camera *camera = &j->frame.camera;
+    const mt_preview_series *series = j->series;
     double shorter = camera->width < camera->height ? camera->width : camera->height;
-    double share = sqrt((double)camera->width * camera->height / (1.0 + j->model.dot_count));
-    mt_stroke_set strokes = {.frame = &j->frame, .strokes = j->model.strokes, .count = j->model.stroke_count};
+    double area = (double)camera->width * camera->height, share = sqrt(area / (1.0 + series->model.dot_count));
+    double near = mt_camera_is_parallel(camera) ? 0.25 : 1.0;
+    mt_stroke_set strokes = {.frame = &j->frame, .strokes = series->model.strokes, .thin_first = MT_NONE};
+    strokes.count = series->model.stroke_count;
     strokes.line_radius = fmax(0.6, shorter / 900.0);
     strokes.dot_radius = fmax(0.9, fmin(0.12 * share, shorter / 90.0));
-    strokes.nearness = 1.0005;
-    mt_stroke_set marks = {.frame = &j->frame, .strokes = j->marks, .count = j->mark_count};
+    strokes.nearness = 1.0 + 0.0005 * near;
+    mt_stroke_set marks = {.frame = &j->frame, .strokes = series->marks.strokes, .count = series->marks.count};
     marks.line_radius = fmax(0.8, shorter / 450.0);
     marks.dot_radius = fmax(1.5, shorter / 110.0);
-    marks.nearness = 1.002;
+    marks.nearness = 1.0 + 0.002 * near;
+    marks.thin_first = series->marks.wire_first;
+    marks.thin_radius = fmax(0.5, shorter / 1900.0);
+    double edges = 1.0 + (series->marks.count - series->marks.wire_first);
+    j->picture.faint_opacity = fmin(0.85, fmax(0.12, sqrt(area / edges) / (24.0 * marks.thin_radius)));
+    j->picture.faint_mark = series->marks.wire_first;
     j->picture.strokes = strokes;
     j->picture.marks = marks;
-    j->picture.mark_colors = j->mark_colors;
+    j->picture.mark_colors = series->marks.colors;
 }
 
 static bool is_faint(const job *j)
@@ -179,71 +279,183 @@ static bool is_faint(const job *j)
 
 static mt_status draw(mt_context *context, job *j, mt_image *image)
 {
+    mt_preview_series *series = j->series;
     j->picture.frame = &j->frame;
     j->picture.look = &j->look;
-    j->picture.backdrop = make_backdrop(j->options, &j->look.surface);
+    j->picture.rays = series->by_rays ? &series->occluder : NULL;
+    j->picture.fine_samples = series->fine_samples;
+    j->picture.backdrop = make_backdrop(&series->options, &j->look.surface);
     j->picture.image = image;
     set_strokes(j);
-    mt_part_skip(context, "tree", "no tree: primary rays only");
     mt_status status = mt_picture_draw(context, &j->picture);
-    if (status == MT_OK && j->model.stroke_count == 0 && is_faint(j)) {
-        status = mt_model_outline(context, &j->model);
+    if (status == MT_OK && series->model.stroke_count == 0 && !series->options.has_eye && is_faint(j)) {
+        status = mt_model_outline(context, &series->model);
         set_strokes(j);
         if (status == MT_OK) {
             status = mt_picture_draw(context, &j->picture);
         }
     }
+    if (status == MT_OK && j->picture.covered_samples == 0) {
+        mt_warn(context, "the picture shows nothing of the mesh: it lies outside of the view");
+    }
     return status;
 }
 
-static mt_status run(mt_context *context, const mt_mesh *mesh, job *j, mt_image **image)
+/* Distances that the depth colouring tells apart. */
+static void find_depths(job *j)
 {
-    int part = mt_part_begin(context, "model", "what is drawn, its bounds, triangles");
-    mt_status status = mt_model_init(context, mesh, &j->model);
-    mt_part_end(context, part);
+    double low = INFINITY, high = 0;
+    for (mt_index vertex = 0; vertex < j->series->model.mesh->vertex_count; vertex++) {
+        double depth = j->frame.vertices[vertex].depth;
+        if (depth != 0) {
+            double distance = depth > 0 ? mt_camera_distance(&j->frame.camera, depth) : 0.0;
+            low = fmin(low, distance);
+            high = fmax(high, distance);
+        }
+    }
+    j->look.nearest = low;
+    j->look.farthest = high;
+}
+
+static mt_status run(mt_context *context, job *j, mt_view_name view, double turn, mt_image **image)
+{
+    const mt_preview_options *options = &j->series->options;
+    mt_status status = make_frame(context, j, view, turn);
     if (status == MT_OK) {
-        status = collect_marks(context, j);
+        status = make_look(context, j);
     }
     if (status == MT_OK) {
-        status = make_normals(context, j);
-    }
-    if (status == MT_OK) {
-        status = make_frame(context, j);
-    }
-    if (status == MT_OK) {
-        uint32_t channels = j->options->background == MT_BACKGROUND_TRANSPARENT ? 4 : 3;
-        status = mt_image_create_unfilled(context, j->frame.camera.width, j->frame.camera.height, channels, image);
+        uint32_t channels = options->background == MT_BACKGROUND_TRANSPARENT ? 4 : 3;
+        status = mt_image_create_unfilled(context, options->width, options->height, channels, image);
     }
     if (status == MT_OK) {
         (*image)->space = MT_COLOR_LINEAR;
+        if (j->look.paint == MT_PAINT_DEPTH) {
+            find_depths(j);
+        }
+        if (options->count_unseen) {
+            j->look.seen = (unsigned char *)mt_allocate_zeroed(context, j->series->model.mesh->face_count);
+            status = j->look.seen ? MT_OK : mt_context_error(context)->status;
+        }
+    }
+    if (status == MT_OK) {
         status = draw(context, j, *image);
     }
     return status;
 }
 
-mt_status mt_preview(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options, mt_image **out)
+static mt_index count_unseen(const job *j)
 {
-    static const mt_preview_options defaults = {0};
+    mt_index face_count = j->series->model.mesh->face_count, count = 0;
+    for (mt_index face = 0; j->look.seen && face < face_count; face++) {
+        count += !j->look.seen[face];
+    }
+    return count;
+}
+
+static mt_status draw_scratch(mt_context *context, job *j, mt_image *scratch, const char *name, const char *reason)
+{
+    int part = mt_part_begin_skipped(context, name, reason);
+    j->picture.image = scratch;
+    mt_status status = mt_picture_draw(context, &j->picture);
+    mt_part_end(context, part);
+    return status;
+}
+
+/* Draws once more in the ways that were not needed, into a picture that nobody sees. */
+static mt_status measure_skipped(mt_context *context, job *j)
+{
+    mt_preview_series *series = j->series;
+    mt_image *scratch = NULL, *kept = j->picture.image;
+    mt_occluder occluder;
+    int part = mt_part_begin_skipped(context, "tree", "what a tree of boxes would have taken");
+    mt_ray_profile profile = (mt_ray_profile)series->options.triangle_test;
+    mt_status status = mt_occluder_init(context, &series->model, profile, true, &occluder);
+    mt_part_end(context, part);
+    if (status == MT_OK) {
+        status = mt_image_create_unfilled(context, kept->width, kept->height, kept->channel_count, &scratch);
+    }
+    if (status == MT_OK && !series->by_rays) {
+        j->picture.rays = &occluder;
+        status = draw_scratch(context, j, scratch, "a ray for each sample", "the whole drawing, in image order");
+    }
+    j->picture.rays = series->by_rays ? &occluder : NULL;
+    if (status == MT_OK && !series->options.shadows) {
+        j->look.shadows = &occluder;
+        status = draw_scratch(context, j, scratch, "shadow rays", "the whole drawing, with shadows");
+        j->look.shadows = NULL;
+    }
+    mt_image_destroy(context, scratch);
+    mt_occluder_release(context, &occluder);
+    return status;
+}
+
+mt_status mt_preview_series_draw(mt_context *context, mt_preview_series *series, mt_view_name view, double turn_degrees,
+                                 mt_image **out, mt_preview_report *report)
+{
     *out = NULL;
     job j;
     memset(&j, 0, sizeof j);
-    j.options = options ? options : &defaults;
-    mt_status status = check_options(context, mesh, j.options);
-    if (status != MT_OK) {
-        return status;
-    }
-    j.samples = j.options->samples ? j.options->samples : DEFAULT_SAMPLES;
+    j.series = series;
     mt_image *image = NULL;
-    status = run(context, mesh, &j, &image);
-    mt_free(context, j.marks);
-    mt_free(context, j.mark_colors);
+    mt_preview_report found = {.unseen_faces = 0};
+    mt_status status = run(context, &j, view, turn_degrees, &image);
+    if (status == MT_OK && series->options.measure_skipped) {
+        status = measure_skipped(context, &j);
+    }
+    if (status == MT_OK) {
+        found.unseen_faces = count_unseen(&j);
+        mt_overlay_draw(series, &j.frame.camera, image, &found);
+    }
+    mt_free(context, j.look.seen);
     mt_frame_release(context, &j.frame);
-    mt_corner_normals_release(context, &j.normals);
-    mt_model_release(context, &j.model);
     if (status != MT_OK) {
         mt_image_destroy(context, image);
         return status;
     }
+    if (report) {
+        *report = found;
+    }
     *out = image;
     return MT_OK;
+}
+
+mt_status mt_series_blank(mt_context *context, const mt_preview_series *series, mt_image **out)
+{
+    const mt_preview_options *options = &series->options;
+    bool transparent = options->background == MT_BACKGROUND_TRANSPARENT;
+    mt_status status = mt_image_create(context, options->width, options->height, transparent ? 4 : 3, out);
+    if (status != MT_OK) {
+        return status;
+    }
+    mt_surface surface;
+    mt_surface_init(series->model.mesh, NULL, NULL, &surface);
+    mt_backdrop backdrop = make_backdrop(options, &surface);
+    (*out)->space = MT_COLOR_LINEAR;
+    for (uint32_t y = 0; y < options->height && !transparent; y++) {
+        mt_vec3 color = mt_backdrop_at(&backdrop, y, options->height);
+        for (uint32_t x = 0; x < options->width; x++) {
+            float *pixel = mt_image_pixel(*out, x, y);
+            pixel[0] = (float)color.x, pixel[1] = (float)color.y, pixel[2] = (float)color.z;
+        }
+    }
+    return MT_OK;
+}
+
+mt_status mt_preview_reported(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options,
+                              mt_image **out, mt_preview_report *report)
+{
+    *out = NULL;
+    mt_preview_series *series = NULL;
+    mt_status status = mt_preview_series_create(context, mesh, options, &series);
+    if (status == MT_OK) {
+        status = mt_preview_series_draw(context, series, MT_VIEW_DEFAULT, 0, out, report);
+    }
+    mt_preview_series_destroy(context, series);
+    return status;
+}
+
+mt_status mt_preview(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options, mt_image **out)
+{
+    return mt_preview_reported(context, mesh, options, out, NULL);
 }

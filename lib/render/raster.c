@@ -28,16 +28,22 @@ typedef struct depth_setup {
     mt_index number;
 } depth_setup;
 
-float mt_triangle_depth(const mt_frame *frame, mt_index triangle, uint32_t x, uint32_t y, unsigned lane, double t)
+void mt_triangle_depths(const mt_frame *frame, mt_tile *tile, uint32_t x, uint32_t y)
 {
-    triangle_setup s;
-    make_setup(frame, triangle, &s);
-    if (s.plane.vague) {
-        double depth = mt_camera_depth(&frame->camera, t);
-        return (float)(depth < (double)FLT_MAX ? depth : (double)FLT_MAX);
-    }
     const mt_sampling *sampling = &frame->sampling;
-    return depth_at(&s.plane, (int32_t)x, (int32_t)y) + (s.slope_x * sampling->x[lane] + s.slope_y * sampling->y[lane]);
+    size_t first = mt_tile_lane(tile, x, y);
+    triangle_setup s = {.number = MT_NONE};
+    for (unsigned lane = 0; lane < sampling->lane_count; lane++) {
+        mt_index triangle = tile->numbers[first + lane];
+        if (triangle == MT_NONE) {
+            continue;
+        }
+        if (triangle != s.number) {
+            make_setup(frame, triangle, &s);
+        }
+        float slope = s.slope_x * sampling->x[lane] + s.slope_y * sampling->y[lane];
+        tile->depths[first + lane] = depth_at(&s.plane, (int32_t)x, (int32_t)y) + slope;
+    }
 }
 
 /* Asks the hit test whether the triangle is what a sample shows. */
@@ -51,7 +57,8 @@ static void settle(const mt_frame *frame, mt_tile *tile, mt_index triangle, uint
     if (!mt_hit(frame->model, &ray, triangle, &hit)) {
         return;
     }
-    float depth = mt_triangle_depth(frame, triangle, x, y, lane, hit.t), old = tile->depths[at];
+    double exact = mt_camera_depth(&frame->camera, hit.t);
+    float depth = (float)(exact < (double)FLT_MAX ? exact : (double)FLT_MAX), old = tile->depths[at];
     float band = old * DEPTH_BAND, nearer = depth - old;
     if (nearer < -band) {
         return;
@@ -165,8 +172,8 @@ MT_INLINE void draw_small_pixel(const mt_frame *frame, mt_tile *tile, const smal
         vector8i inside = (e0 > s->doubt[0]) & (e1 > s->doubt[1]) & (e2 > s->doubt[2]);
         inside &= s->depth.plane.vague ? 0 : -1;
         size_t first = lane + MT_GROUP_SIZE * g;
-        unsigned doubt = store_group(&s->depth, maybe, inside, depth + at->depths[g], tile->depths + first,
-                                     tile->numbers + first);
+        unsigned doubt =
+            store_group(&s->depth, maybe, inside, depth + at->depths[g], tile->depths + first, tile->numbers + first);
         if (__builtin_expect(doubt != 0, 0)) {
             settle_lanes(frame, tile, s->depth.number, (uint32_t)x, (uint32_t)y, MT_GROUP_SIZE * g, doubt);
         }
@@ -246,7 +253,8 @@ MT_INLINE void prepare_large(const mt_frame *frame, mt_index triangle, const cor
     } else {
         triangle_setup crossing;
         mt_crossing_setup(frame, triangle, &crossing);
-        s->depth = (depth_setup){crossing.plane, (float)crossing.plane.slope_x, (float)crossing.plane.slope_y, triangle};
+        s->depth =
+            (depth_setup){crossing.plane, (float)crossing.plane.slope_x, (float)crossing.plane.slope_y, triangle};
         s->edges[0] = crossing.edges[0], s->edges[1] = crossing.edges[1], s->edges[2] = crossing.edges[2];
     }
     double first = frame->sampling.first, last = frame->sampling.last;

@@ -12,7 +12,8 @@ void mt_triangle_narrow(const mt_frame *frame, mt_index triangle, uint32_t tile_
  * the lowest. */
 void mt_draw_triangles(const mt_frame *frame, mt_tile *tile, const mt_index *triangles, size_t count);
 
-/* The depth that a sample has where it shows the triangle, which the hit test meets there at t. */
-float mt_triangle_depth(const mt_frame *frame, mt_index triangle, uint32_t x, uint32_t y, unsigned lane, double t);
+/* Replaces the depths of a pixel by those of the triangles that its samples show, as lines and dots meet them: the same
+ * whoever found the triangles. */
+void mt_triangle_depths(const mt_frame *frame, mt_tile *tile, uint32_t x, uint32_t y);
 
 #endif

@@ -2,6 +2,7 @@
  * at their middle; groups are taken in the order of their first sample, so the sum is always the same. */
 #include "lib/render/resolve.h"
 
+#include "lib/render/ground.h"
 #include "lib/render/vectors.h"
 
 /* How much of a mark shines through what hides it. */
@@ -70,20 +71,28 @@ MT_INLINE mt_vec3 light_of(const mt_picture *picture, mt_facet_cache *cache, mt_
         return facet->light;
     }
     middle at = middle_of(picture->frame, samples, x, y);
-    return mt_facet_shade(picture->look, facet, at.x, at.y);
+    double lit = 1.0;
+    if (picture->look->shadows) {
+        lit = mt_facet_lit(picture->look, facet, &picture->frame->sampling, samples, x, y);
+    }
+    return mt_facet_shade(picture->look, facet, at.x, at.y, lit);
 }
 
-MT_INLINE double mark_opacity(mt_index mark)
+MT_INLINE double mark_opacity(const mt_picture *picture, mt_index mark)
 {
-    return mark == MT_NONE ? 0.0 : (mark & 1u) ? HIDDEN_MARK : 1.0;
+    bool faint = mark != MT_NONE && mark / 2 >= picture->faint_mark;
+    if (mark == MT_NONE || (faint && (mark & 1u))) {
+        return 0.0;
+    }
+    return faint ? picture->faint_opacity : (mark & 1u) ? HIDDEN_MARK : 1.0;
 }
 
 /* Samples, each less the part of it that a mark covers. */
-static double weight_of(const mt_index *marks, uint64_t samples)
+static double weight_of(const mt_picture *picture, const mt_index *marks, uint64_t samples)
 {
     double weight = 0;
     for (; samples; samples &= samples - 1) {
-        weight += 1.0 - mark_opacity(marks[__builtin_ctzll(samples)]);
+        weight += 1.0 - mark_opacity(picture, marks[__builtin_ctzll(samples)]);
     }
     return weight;
 }
@@ -106,15 +115,25 @@ static void add_marks(const mt_picture *picture, const mt_index *marks, light_su
         if (marks[sample] != MT_NONE) {
             const unsigned char *rgb = picture->mark_colors + 3 * (size_t)(marks[sample] / 2);
             mt_vec3 color = mt_linear_color(&look->surface, rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
-            add(sum, color, mark_opacity(marks[sample]));
+            add(sum, color, mark_opacity(picture, marks[sample]));
         }
     }
 }
 
-static mt_vec3 backdrop_at(const mt_picture *picture, uint32_t y)
+/* The floor, where a pixel shows nothing else. */
+static void add_ground(const mt_picture *picture, uint64_t samples, const mt_index *marks, uint32_t x, uint32_t y,
+                       light_sum *sum)
 {
-    double t = (y + 0.5) / picture->frame->camera.height;
-    return mt_vec3_add(mt_vec3_scale(picture->backdrop.top, 1.0 - t), mt_vec3_scale(picture->backdrop.bottom, t));
+    if (!samples) {
+        return;
+    }
+    middle at = middle_of(picture->frame, samples, x, y);
+    mt_vec3 light;
+    double cover = mt_ground_shade(picture->look, &picture->frame->sampling, samples, x, y, at.x, at.y, &light);
+    double weight = marks ? weight_of(picture, marks, samples) : (double)__builtin_popcountll(samples);
+    if (cover > 0) {
+        add(sum, light, weight * cover);
+    }
 }
 
 static void store(const mt_picture *picture, uint32_t x, uint32_t y, light_sum sum, mt_vec3 behind)
@@ -147,10 +166,13 @@ MT_INLINE unsigned resolve_pixel(const mt_picture *picture, const mt_tile *tile,
         left &= ~samples;
         if (number != MT_NONE) {
             unsigned sample_count = (unsigned)__builtin_popcountll(samples);
-            double weight = marks ? weight_of(marks, samples) : sample_count;
+            double weight = marks ? weight_of(picture, marks, samples) : sample_count;
             add(sum, light_of(picture, cache, number, samples, x, y), weight);
             covered += sample_count;
         }
+    }
+    if (picture->look->ground.is_drawn) {
+        add_ground(picture, samples_of(numbers, group_count, MT_NONE) & (UINT64_MAX >> (64 - count)), marks, x, y, sum);
     }
     if (marks) {
         add_marks(picture, marks, sum);
@@ -163,9 +185,12 @@ static uint64_t resolve_tile(const mt_picture *picture, const mt_tile *tile, mt_
 {
     uint64_t covered = 0;
     for (uint32_t y = tile->y; y < tile->y + tile->height; y++) {
-        mt_vec3 behind = backdrop_at(picture, y);
+        mt_vec3 behind = mt_backdrop_at(&picture->backdrop, y, picture->frame->camera.height);
         for (uint32_t x = tile->x; x < tile->x + tile->width; x++) {
             light_sum sum = {{0, 0, 0}, 0};
+            if (tile->wanted && !tile->wanted[mt_tile_pixel(tile, x, y)]) {
+                continue;
+            }
             covered += resolve_pixel(picture, tile, cache, x, y, &sum);
             store(picture, x, y, sum, behind);
         }
@@ -182,7 +207,7 @@ void mt_resolve_blank(const mt_picture *picture, const mt_tile *tile)
 {
     const light_sum nothing = {{0, 0, 0}, 0};
     for (uint32_t y = tile->y; y < tile->y + tile->height; y++) {
-        mt_vec3 behind = backdrop_at(picture, y);
+        mt_vec3 behind = mt_backdrop_at(&picture->backdrop, y, picture->frame->camera.height);
         for (uint32_t x = tile->x; x < tile->x + tile->width; x++) {
             store(picture, x, y, nothing, behind);
         }

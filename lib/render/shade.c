@@ -34,22 +34,22 @@ static mt_vec3 add_scaled(mt_vec3 a, mt_vec3 b, double s)
     return mt_vec3_make(a.x + b.x * s, a.y + b.y * s, a.z + b.z * s);
 }
 
-mt_vec3 mt_shade(const mt_lighting *lighting, mt_vec3 normal, mt_vec3 toward_eye, mt_vec3 color)
+mt_vec3 mt_shade(const mt_lighting *lighting, mt_vec3 normal, mt_vec3 toward_eye, mt_vec3 color, double lit)
 {
     double sky = 0.5 + 0.5 * mt_vec3_dot(normal, lighting->up);
     mt_vec3 diffuse = add_scaled(mt_vec3_scale(lighting->ground, 1.0 - sky), lighting->sky, sky);
     mt_vec3 glossy = mt_vec3_make(0, 0, 0);
     for (int i = 0; i < MT_LIGHT_COUNT; i++) {
         const mt_light *light = &lighting->lights[i];
-        double cosine = positive(mt_vec3_dot(normal, light->direction));
+        double cosine = positive(mt_vec3_dot(normal, light->direction)), arrives = i == 0 ? lit : 1.0;
         mt_vec3 half = mt_vec3_add(light->direction, toward_eye);
         double along = positive(mt_vec3_dot(normal, half)), squared = mt_vec3_dot(half, half);
         double highlight = cosine > 0 && squared > 0 ? along * along / squared : 0.0;
         for (int k = 0; k < GLOSS_SQUARINGS; k++) {
             highlight *= highlight;
         }
-        diffuse = add_scaled(diffuse, light->color, cosine);
-        glossy = add_scaled(glossy, light->color, lighting->gloss * highlight);
+        diffuse = add_scaled(diffuse, light->color, cosine * arrives);
+        glossy = add_scaled(glossy, light->color, lighting->gloss * highlight * arrives);
     }
     return mt_vec3_make(color.x * diffuse.x + glossy.x, color.y * diffuse.y + glossy.y, color.z * diffuse.z + glossy.z);
 }

@@ -21,7 +21,8 @@ typedef struct mt_lighting {
 /* A head light over the left shoulder, a fill light from the right, and ambient light: all move with the camera. */
 mt_lighting mt_lighting_default(const mt_camera *camera, mt_vec3 up);
 
-/* Ambient + Lambert + Blinn-Phong. normal and toward_eye are unit vectors; the colour is the surface's, linear. */
-mt_vec3 mt_shade(const mt_lighting *lighting, mt_vec3 normal, mt_vec3 toward_eye, mt_vec3 color);
+/* Ambient + Lambert + Blinn-Phong. normal and toward_eye are unit vectors; the colour is the surface's, linear. lit:
+ * the share of the first light that arrives. */
+mt_vec3 mt_shade(const mt_lighting *lighting, mt_vec3 normal, mt_vec3 toward_eye, mt_vec3 color, double lit);
 
 #endif

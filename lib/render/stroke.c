@@ -6,6 +6,9 @@
 
 #include <math.h>
 
+/* Lines that run past the eye end at this distance from its plane; the extent of the mesh is about 1. */
+#define CUT_DISTANCE 1e-4
+
 /* A segment in steps of the grid. */
 typedef struct segment {
     double x, y, along_x, along_y;
@@ -14,15 +17,34 @@ typedef struct segment {
     double depth, depth_along; /* with the set's nearness */
 } segment;
 
+/* The place where a line from a vertex in front comes closest to the plane of the eye, if the other end is behind. */
+__attribute__((noinline)) static mt_screen_vertex cut(const mt_frame *frame, mt_index front, mt_index behind)
+{
+    const mt_camera *camera = &frame->camera;
+    mt_vec3 p = mt_model_position(frame->model, front), q = mt_model_position(frame->model, behind);
+    double from = mt_vec3_dot(mt_vec3_subtract(p, camera->eye), camera->forward);
+    double to = mt_vec3_dot(mt_vec3_subtract(q, camera->eye), camera->forward);
+    double share = (from - fmin(CUT_DISTANCE, 0.5 * from)) / (from - to);
+    mt_vec3 along = mt_vec3_scale(mt_vec3_subtract(q, p), share);
+    mt_screen_point s = mt_camera_project(camera, mt_vec3_add(p, along));
+    return (mt_screen_vertex){s.x * MT_STEPS, s.y * MT_STEPS, s.depth};
+}
+
 MT_INLINE segment segment_of(const mt_stroke_set *set, mt_index number)
 {
-    const mt_screen_vertex *a = &set->frame->vertices[set->strokes[number].a];
-    const mt_screen_vertex *b = &set->frame->vertices[set->strokes[number].b];
+    const mt_stroke *stroke = &set->strokes[number];
+    const mt_screen_vertex *a = &set->frame->vertices[stroke->a], *b = &set->frame->vertices[stroke->b];
+    mt_screen_vertex cut_end;
+    if (__builtin_expect(a->depth < 0 || b->depth < 0, 0)) {
+        cut_end = a->depth < 0 ? cut(set->frame, stroke->b, stroke->a) : cut(set->frame, stroke->a, stroke->b);
+        *(a->depth < 0 ? &a : &b) = &cut_end;
+    }
     segment s = {.x = a->x, .y = a->y, .along_x = (double)b->x - a->x, .along_y = (double)b->y - a->y};
     double length_squared = s.along_x * s.along_x + s.along_y * s.along_y;
     s.per_length_squared = length_squared > 0 ? 1.0 / length_squared : 0.0;
     bool is_dot = length_squared == 0;
-    s.radius = (is_dot ? set->dot_radius : set->line_radius) * MT_STEPS;
+    double line_radius = number >= set->thin_first ? set->thin_radius : set->line_radius;
+    s.radius = (is_dot ? set->dot_radius : line_radius) * MT_STEPS;
     s.depth = a->depth * set->nearness;
     s.depth_along = (b->depth - a->depth) * set->nearness;
     return s;
@@ -33,13 +55,20 @@ typedef struct pixel_box {
     int64_t first_x, first_y, last_x, last_y;
 } pixel_box;
 
+/* Far beyond every picture on both sides. */
+MT_INLINE int64_t pixel_of(double steps)
+{
+    double pixel = floor(steps / MT_STEPS);
+    return (int64_t)fmin(fmax(pixel, -1e6), 1e6);
+}
+
 MT_INLINE pixel_box box_of(const segment *s)
 {
     pixel_box box;
-    box.first_x = (int64_t)floor((s->x + fmin(s->along_x, 0.0) - s->radius) / MT_STEPS);
-    box.first_y = (int64_t)floor((s->y + fmin(s->along_y, 0.0) - s->radius) / MT_STEPS);
-    box.last_x = (int64_t)floor((s->x + fmax(s->along_x, 0.0) + s->radius) / MT_STEPS);
-    box.last_y = (int64_t)floor((s->y + fmax(s->along_y, 0.0) + s->radius) / MT_STEPS);
+    box.first_x = pixel_of(s->x + fmin(s->along_x, 0.0) - s->radius);
+    box.first_y = pixel_of(s->y + fmin(s->along_y, 0.0) - s->radius);
+    box.last_x = pixel_of(s->x + fmax(s->along_x, 0.0) + s->radius);
+    box.last_y = pixel_of(s->y + fmax(s->along_y, 0.0) + s->radius);
     return box;
 }
 
@@ -47,7 +76,8 @@ mt_tile_range mt_stroke_range(const mt_stroke_set *set, mt_index stroke)
 {
     const mt_tile_range empty = {1, 1, 0, 0};
     const mt_screen_vertex *vertices = set->frame->vertices;
-    if (!(vertices[set->strokes[stroke].a].depth > 0 && vertices[set->strokes[stroke].b].depth > 0)) {
+    double first = vertices[set->strokes[stroke].a].depth, second = vertices[set->strokes[stroke].b].depth;
+    if (first == 0 || second == 0 || !(first > 0 || second > 0)) {
         return empty;
     }
     segment s = segment_of(set, stroke);
@@ -177,7 +207,7 @@ static void draw_strokes(const mt_stroke_set *set, mt_tile *tile, const mt_index
                          mt_index first_number, bool mark)
 {
     for (size_t i = 0; i < count; i++) {
-        draw_stroke(set, tile, numbers[i] - first_number, (int32_t)numbers[i], mark);
+        draw_stroke(set, tile, numbers[i], (int32_t)(first_number + numbers[i]), mark);
     }
 }
 

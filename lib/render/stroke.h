@@ -8,16 +8,18 @@ typedef struct mt_stroke_set {
     const mt_frame *frame;
     const mt_stroke *strokes;
     mt_index count;
-    double line_radius; /* pixels; half a line's width */
-    double dot_radius;  /* pixels */
-    double nearness;    /* factor on depth, a little over 1, so that lines on a surface are not half buried */
+    double line_radius;  /* pixels; half a line's width */
+    mt_index thin_first; /* lines from here on have the other radius; MT_NONE: none */
+    double thin_radius;
+    double dot_radius; /* pixels */
+    double nearness;   /* factor on depth, a little over 1, so that lines on a surface are not half buried */
 } mt_stroke_set;
 
 /* For mt_bins_init. */
 mt_tile_range mt_stroke_range(const mt_stroke_set *set, mt_index stroke);
 void mt_stroke_narrow(const mt_stroke_set *set, mt_index stroke, uint32_t tile_y, mt_tile_range *row);
 
-/* Draws strokes among the triangles, given by their numbers in the tile: first_number + their own. */
+/* Draws strokes among the triangles; in the tile they are called first_number + their own number. */
 void mt_draw_strokes(const mt_stroke_set *set, mt_tile *tile, const mt_index *numbers, size_t count,
                      mt_index first_number);
 

@@ -16,11 +16,11 @@ static const mt_attribute *find_colors(const mt_mesh *mesh)
     return NULL;
 }
 
-void mt_surface_init(const mt_mesh *mesh, const unsigned char *face_colors, mt_surface *surface)
+void mt_surface_init(const mt_mesh *mesh, const mt_mesh *colored, const unsigned char *face_colors, mt_surface *surface)
 {
     memset(surface, 0, sizeof *surface);
     surface->face_colors = face_colors;
-    surface->colors = face_colors ? NULL : find_colors(mesh);
+    surface->colors = face_colors || !colored ? NULL : find_colors(colored);
     surface->corner_vertices = mesh->corner_vertices;
     surface->per_maximum = surface->colors ? 1.0 / mt_color_maximum(surface->colors->type) : 1.0;
     for (int i = 0; i <= MT_DECODE_STEPS; i++) {

@@ -15,8 +15,9 @@ typedef struct mt_surface {
     double decoded[MT_DECODE_STEPS + 1];
 } mt_surface;
 
-/* The colours asked for, else those of the mesh: by corner, vertex or face, in this order. */
-void mt_surface_init(const mt_mesh *mesh, const unsigned char *face_colors, mt_surface *surface);
+/* The colours asked for, else those of the mesh `colored` (NULL: none): by corner, vertex or face, in this order. */
+void mt_surface_init(const mt_mesh *mesh, const mt_mesh *colored, const unsigned char *face_colors,
+                     mt_surface *surface);
 
 /* The colour of a corner of a face, or of a vertex alone (face and corner MT_NONE). False: it has none. */
 bool mt_surface_color(const mt_surface *surface, mt_index face, mt_index corner, mt_index vertex, mt_vec3 *color);

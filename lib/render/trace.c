@@ -1,7 +1,5 @@
 #include "lib/render/trace.h"
 
-#include "lib/render/raster.h"
-
 #include <string.h>
 
 #define VERTEX_BLOCK 65536
@@ -51,7 +49,7 @@ mt_status mt_occluder_init(mt_context *context, const mt_model *model, mt_ray_pr
 
 void mt_occluder_release(mt_context *context, mt_occluder *occluder)
 {
-    mt_surface_tree_destroy(occluder->tree);
+    mt_surface_tree_destroy(context, occluder->tree);
     mt_free(context, occluder->mesh.positions);
     memset(occluder, 0, sizeof *occluder);
 }
@@ -94,15 +92,11 @@ static void trace_pixel(const mt_frame *frame, const mt_occluder *occluder, mt_t
     for (unsigned lane = 0; lane < sampling->lane_count; lane++) {
         if (lane >= sampling->sample_count) { /* repeats the first */
             tile->numbers[first + lane] = tile->numbers[first];
-            tile->depths[first + lane] = tile->depths[first];
             continue;
         }
         const mt_ray ray = mt_hit_ray(mt_frame_ray(frame, x, y, lane));
         mt_ray_hit hit = nearest(occluder, &ray);
-        if (hit.triangle != MT_NONE) {
-            tile->numbers[first + lane] = hit.triangle;
-            tile->depths[first + lane] = mt_triangle_depth(frame, hit.triangle, x, y, lane, hit.t);
-        }
+        tile->numbers[first + lane] = hit.triangle;
     }
 }
 
@@ -110,7 +104,9 @@ void mt_trace_triangles(const mt_frame *frame, const mt_occluder *occluder, mt_t
 {
     for (uint32_t y = tile->y; y < tile->y + tile->height; y++) {
         for (uint32_t x = tile->x; x < tile->x + tile->width; x++) {
-            trace_pixel(frame, occluder, tile, x, y);
+            if (!tile->wanted || tile->wanted[mt_tile_pixel(tile, x, y)]) {
+                trace_pixel(frame, occluder, tile, x, y);
+            }
         }
     }
 }

@@ -22,7 +22,8 @@ void mt_occluder_release(mt_context *context, mt_occluder *occluder);
 /* Whether anything lies on the ray. */
 bool mt_occluder_hides(const mt_occluder *occluder, const mt_ray *ray);
 
-/* Finds for every sample of the tile the nearest triangle that its ray hits, at equal t the lowest. */
+/* Finds for every sample of the tile the nearest triangle that its ray hits, at equal t the lowest. Depths are left to
+ * mt_triangle_depths. */
 void mt_trace_triangles(const mt_frame *frame, const mt_occluder *occluder, mt_tile *tile);
 
 #endif

@@ -1,4 +1,5 @@
-/* A triangle on the picture: its box in pixels, its edge functions, its plane of depth, and how far each can be trusted. */
+/* A triangle on the picture: its box in pixels, its edge functions, its plane of depth, and how far each can be
+ * trusted. */
 #ifndef MESHTOOL_RENDER_TRIANGLE_H
 #define MESHTOOL_RENDER_TRIANGLE_H
 
@@ -10,11 +11,12 @@
 /* Triangles ahead whose vertices are asked for. */
 #define PREFETCH_DISTANCE 8
 
-/* Two depths are told apart without the hit test when they differ by more than this part of themselves; a triangle whose
- * depth plane may be wrong by an eighth of it leaves depth to the hit test altogether. Smaller: more of these; larger:
- * more pairs of layers are asked about. */
-#define DEPTH_BAND 0x1p-15F
-#define PLANE_ERROR 0x1p-18
+/* Two depths are told apart without the hit test when they differ by more than this part of themselves. A plane that
+ * may be wrong by an eighth of it, or by half of it where the hit test sees an edge elsewhere, leaves depth to the hit
+ * test altogether. Smaller: more of these; larger: more pairs of layers are asked about. */
+#define DEPTH_BAND 0x1p-13F
+#define PLANE_ERROR 0x1p-16
+#define EDGE_ERROR 0x1p-14
 
 /* Rounding, as parts of the largest term: of a sum of three products in double, and of a float one. */
 #define DOUBLE_ROUNDING 0x1p-49
@@ -74,10 +76,30 @@ static inline bool is_placed(const corners *c)
     return farthest_depth(c) > 0;
 }
 
+/* A displacement at the triangle's nearest corner, in steps. */
+static inline double in_steps(const mt_frame *frame, const corners *c, double displacement)
+{
+    double scale = mt_camera_is_parallel(&frame->camera) ? 1.0 : nearest_depth(c);
+    return frame->steps_per_unit * scale * displacement;
+}
+
+/* How much more the hit test may be wrong than about a triangle of good shape. */
+static inline double shape_factor(const mt_frame *frame, const corners *c)
+{
+    if (!frame->precision.by_shape) {
+        return 1.0;
+    }
+    double x1 = c->v[1]->x - c->v[0]->x, y1 = c->v[1]->y - c->v[0]->y;
+    double x2 = c->v[2]->x - c->v[0]->x, y2 = c->v[2]->y - c->v[0]->y;
+    double first = x1 * x1 + y1 * y1, second = x2 * x2 + y2 * y2;
+    double squared = (first > second ? first : second) / fabs(x1 * y2 - x2 * y1);
+    return squared < 1e6 ? 1.0 + squared : 1e6;
+}
+
 /* How far, in steps, the hit test may see the triangle from where it is drawn. */
 static inline double doubt_of(const mt_frame *frame, const corners *c)
 {
-    return frame->doubt + frame->doubt_per_depth * nearest_depth(c);
+    return in_steps(frame, c, frame->precision.edges) * shape_factor(frame, c);
 }
 
 /* Pixels with a sample inside the box of the triangle; first > last where there is none. */
@@ -135,12 +157,15 @@ static inline depth_plane make_plane(const mt_frame *frame, const corners *c)
     depth_plane plane = {.x = p->x, .y = p->y, .depth = p->depth, .nearest = (float)nearest};
     plane.slope_x = (d1 * y2 - d2 * y1) * scale;
     plane.slope_y = (d2 * x1 - d1 * x2) * scale;
-    double slope = fabs(plane.slope_x) + fabs(plane.slope_y);
+    double slope = fabs(plane.slope_x) + fabs(plane.slope_y), factor = shape_factor(frame, c);
     double reach = fabs(p->x) + fabs(p->y) + 2.0 * MT_STEPS * MT_PREVIEW_MAXIMUM_SIZE;
-    double error = slope * (doubt_of(frame, c) + MT_STEPS * (double)FLOAT_ROUNDING + reach * DOUBLE_ROUNDING);
-    error += frame->displacement * (mt_camera_is_parallel(&frame->camera) ? 1.0 : nearest * nearest);
+    double steps = in_steps(frame, c, frame->precision.plane) * factor + MT_STEPS * (double)FLOAT_ROUNDING;
+    double moved = frame->precision.plane * factor * (mt_camera_is_parallel(&frame->camera) ? 1.0 : nearest * nearest);
+    double error = slope * (steps + reach * DOUBLE_ROUNDING) + moved;
+    double at_edges = slope * in_steps(frame, c, frame->precision.edges) * factor;
     /* Also when the slopes are not numbers. */
-    return error <= PLANE_ERROR * farthest ? plane : vague_plane(nearest);
+    bool clear = error <= PLANE_ERROR * farthest && at_edges <= EDGE_ERROR * farthest;
+    return clear ? plane : vague_plane(nearest);
 }
 
 /* Depth at the top left corner of a pixel. */

@@ -120,13 +120,15 @@ typedef struct mt_part {
     const char *name;   /* "edge pairs", "half-edges", "depth buffer"; a string literal */
     const char *reason; /* why it was built or skipped; a string literal, may be NULL */
     bool built;
-    double milliseconds; /* wall time */
+    double milliseconds; /* wall time; of a part that was skipped what it would have taken, 0: not measured */
     uint64_t bytes;      /* growth of the bytes held while it was built; 0 when it shrank */
 } mt_part;
 
 /* Begins a part; returns a token for mt_part_end. Without options.explain these do nothing. */
 int mt_part_begin(mt_context *context, const char *name, const char *reason);
 void mt_part_end(mt_context *context, int token);
+/* Begins to measure a part that the result does without. */
+int mt_part_begin_skipped(mt_context *context, const char *name, const char *reason);
 void mt_part_skip(mt_context *context, const char *name, const char *reason);
 /* The parts so far, in the order of their beginning; *count receives their number. */
 const mt_part *mt_context_parts(const mt_context *context, size_t *count);

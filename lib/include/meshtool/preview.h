@@ -4,6 +4,7 @@
 
 #include <meshtool/image.h>
 #include <meshtool/mesh.h>
+#include <meshtool/ray.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -100,14 +101,19 @@ typedef struct mt_preview_options {
     bool scale_bar;       /* a bar with its length in the mesh's units; in perspective true at the target */
     mt_visibility_method method;
     mt_acceleration acceleration;
+    mt_ray_profile triangle_test; /* what decides whether a ray hits a triangle */
+    bool turntable;               /* pictures turn around the up axis: the mesh has one size in all */
+    bool measure_skipped;         /* for mt_context_parts: also build and measure what the picture does without */
+    bool count_unseen;            /* find mt_preview_report.unseen_faces */
 } mt_preview_options;
 
 /* What a preview found out beside the picture. */
 typedef struct mt_preview_report {
-    double eye[3], target[3]; /* in the mesh's coordinates; target: the point of the view's axis nearest to the middle */
-    double scale_bar_length;  /* in the mesh's units; 0: none was drawn */
-    double units_per_pixel;   /* at the target */
-    mt_index unseen_faces;    /* faces that no sample shows: hidden, too small, or outside the picture */
+    double eye[3],
+        target[3];           /* in the mesh's coordinates; target: the point of the view's axis nearest to the middle */
+    double scale_bar_length; /* in the mesh's units; 0: none was drawn */
+    double units_per_pixel;  /* at the target */
+    mt_index unseen_faces;   /* with count_unseen: faces that no sample shows: hidden, too small, or outside the picture */
 } mt_preview_report;
 
 /* Draws the mesh, seen in perspective from three quarters above unless told otherwise; options may be NULL. The up axis
@@ -120,6 +126,10 @@ typedef struct mt_preview_report {
  * option out of range. Ownership of *out: the caller's, until mt_image_destroy. */
 mt_status mt_preview(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options, mt_image **out);
 
+/* The same, with a report. */
+mt_status mt_preview_reported(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options,
+                              mt_image **out, mt_preview_report *report);
+
 /* Several pictures of one mesh; what does not depend on the view is made once. */
 typedef struct mt_preview_series mt_preview_series;
 
@@ -127,8 +137,7 @@ typedef struct mt_preview_series mt_preview_series;
 mt_status mt_preview_series_create(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options,
                                    mt_preview_series **out);
 /* Draws one picture: `view` takes the place of the options' unless it is MT_VIEW_DEFAULT, and the eye is turned around
- * the up axis by turn_degrees, to the right; pictures of one series that only differ in that show the mesh in one
- * size. report may be NULL. */
+ * the up axis by turn_degrees, to the right. report may be NULL. */
 mt_status mt_preview_series_draw(mt_context *context, mt_preview_series *series, mt_view_name view, double turn_degrees,
                                  mt_image **out, mt_preview_report *report);
 void mt_preview_series_destroy(mt_context *context, mt_preview_series *series); /* NULL is allowed */
