@@ -54,7 +54,7 @@ static void paint_components(void *user, uint64_t begin, uint64_t end)
 {
     const paint_task *task = (const paint_task *)user;
     for (uint64_t face = begin; face < end; face++) {
-        set_hue(task->colors + 3 * face, hue_of(task->components->face_component[face]), 0.50, 0.86);
+        set_hue(task->colors + 3 * face, hue_of(task->components->face_component[face]), 0.42, 0.88);
     }
 }
 

@@ -36,9 +36,9 @@ static inline void mt_hit_load(const mt_model *model, mt_index triangle, mt_ray_
         mt_vec3 p = mt_model_position(model, model->mesh->corner_vertices[corner]);
         p = mt_ray_space_point(&model->space, p);
         bool is_exact = profile == MT_RAY_EXACT;
-        out->corners[side][0] = is_exact ? p.x : (double)(float)p.x;
-        out->corners[side][1] = is_exact ? p.y : (double)(float)p.y;
-        out->corners[side][2] = is_exact ? p.z : (double)(float)p.z;
+        out->corners[side][0] = is_exact ? p.x : mt_ray_round(p.x);
+        out->corners[side][1] = is_exact ? p.y : mt_ray_round(p.y);
+        out->corners[side][2] = is_exact ? p.z : mt_ray_round(p.z);
     }
 }
 

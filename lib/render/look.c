@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-/* sRGB grey of what is nearest and farthest. */
-#define NEAR_GREY 0.96
-#define FAR_GREY 0.16
+/* sRGB grey of what is nearest and farthest; both darker than the usual background. */
+#define NEAR_GREY 0.78
+#define FAR_GREY 0.10
 
 void mt_look_init(mt_look *look, const mt_frame *frame, const mt_corner_normals *normals, const mt_mesh *colored,
                   const unsigned char *face_colors, mt_vec3 up)

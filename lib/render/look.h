@@ -30,8 +30,8 @@ typedef struct mt_look {
     mt_vec3 back_tint;               /* factor on the mesh's own colours, seen from behind */
     mt_vec3 wire_color;
     mt_ground ground;
-    unsigned char *seen;             /* one a face, set to 1 where a sample shows it; NULL: nobody asks */
-    double nearest, farthest;        /* distances along the view, for MT_PAINT_DEPTH */
+    unsigned char *seen;      /* one a face, set to 1 where a sample shows it; NULL: nobody asks */
+    double nearest, farthest; /* distances along the view, for MT_PAINT_DEPTH */
 } mt_look;
 
 void mt_look_init(mt_look *look, const mt_frame *frame, const mt_corner_normals *normals, const mt_mesh *colored,

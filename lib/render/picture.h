@@ -2,23 +2,12 @@
 #ifndef MESHTOOL_RENDER_PICTURE_H
 #define MESHTOOL_RENDER_PICTURE_H
 
+#include "lib/render/backdrop.h"
 #include "lib/render/facet.h"
 #include "lib/render/stroke.h"
 #include "lib/render/trace.h"
 
 #include <meshtool/image.h>
-
-/* Linear light from behind the mesh; transparent: none, and the picture has alpha. */
-typedef struct mt_backdrop {
-    mt_vec3 top, bottom;
-    bool transparent;
-} mt_backdrop;
-
-static inline mt_vec3 mt_backdrop_at(const mt_backdrop *backdrop, uint32_t y, uint32_t height)
-{
-    double t = (y + 0.5) / height;
-    return mt_vec3_add(mt_vec3_scale(backdrop->top, 1.0 - t), mt_vec3_scale(backdrop->bottom, t));
-}
 
 typedef struct mt_picture {
     const mt_frame *frame;

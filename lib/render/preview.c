@@ -1,4 +1,5 @@
 /* The order of a preview: what is drawn, its colours and normals; then for each picture a camera, a frame, tiles. */
+#include "lib/render/backdrop.h"
 #include "lib/render/coloring.h"
 #include "lib/render/ground.h"
 #include "lib/render/overlay.h"
@@ -21,63 +22,6 @@
 
 /* With fewer triangles a ray tries them all: a tree would not be paid for. */
 #define FEW_TRIANGLES 64
-
-static mt_status check_samples(mt_context *context, unsigned samples)
-{
-    for (unsigned n = 1; n * n <= MT_MAXIMUM_SAMPLES; n++) {
-        if (n * n == samples) {
-            return MT_OK;
-        }
-    }
-    return mt_fail(context, MT_ERROR_ARGUMENT, "samples a pixel are a square number from 1 to %d, not %u",
-                   MT_MAXIMUM_SAMPLES, samples);
-}
-
-static bool is_direction(const double v[3])
-{
-    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]) && (v[0] != 0 || v[1] != 0 || v[2] != 0);
-}
-
-static mt_status check_view(mt_context *context, const mt_preview_options *options)
-{
-    static const double zero[3] = {0, 0, 0};
-    if (!(options->fov_degrees >= 0 && options->fov_degrees < 180)) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "the field of view lies between 0 and 180 degrees, not at %g",
-                       options->fov_degrees);
-    }
-    if (options->has_up && !is_direction(options->up)) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "the up direction is not zero and finite");
-    }
-    const double *eye = options->has_eye ? options->eye : zero, *target = options->has_target ? options->target : zero;
-    for (int axis = 0; axis < 3; axis++) {
-        if (!isfinite(eye[axis]) || !isfinite(target[axis])) {
-            return mt_fail(context, MT_ERROR_ARGUMENT, "the eye and the target have finite coordinates");
-        }
-    }
-    return MT_OK;
-}
-
-static mt_status check_options(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options)
-{
-    uint32_t largest = options->width > options->height ? options->width : options->height;
-    if (largest > MT_PREVIEW_MAXIMUM_SIZE) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "a picture has up to %d pixels on a side, not %u",
-                       MT_PREVIEW_MAXIMUM_SIZE, largest);
-    }
-    if (!(options->crease_degrees >= 0 && options->crease_degrees <= 180)) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "the crease angle lies between 0 and 180 degrees, not at %g",
-                       options->crease_degrees);
-    }
-    for (size_t i = 0; i < 2 * options->edge_mark_count; i++) {
-        if (options->edge_marks[i] >= mesh->vertex_count) {
-            return mt_fail(context, MT_ERROR_ARGUMENT, "a marked edge names vertex %u of a mesh of %u vertices",
-                           options->edge_marks[i], mesh->vertex_count);
-        }
-    }
-    mt_status status = check_view(context, options);
-    bool counted = options->samples != 0 && options->samples != MT_SAMPLES_ADAPTIVE;
-    return status == MT_OK && counted ? check_samples(context, options->samples) : status;
-}
 
 static mt_status make_normals(mt_context *context, mt_preview_series *series)
 {
@@ -147,7 +91,7 @@ mt_status mt_preview_series_create(mt_context *context, const mt_mesh *mesh, con
     static const mt_preview_options defaults = {0};
     *out = NULL;
     options = options ? options : &defaults;
-    mt_status status = check_options(context, mesh, options);
+    mt_status status = mt_preview_check(context, mesh, options);
     if (status != MT_OK) {
         return status;
     }
@@ -228,20 +172,6 @@ static mt_status make_look(mt_context *context, job *j)
     return status;
 }
 
-static mt_backdrop make_backdrop(const mt_preview_options *options, const mt_surface *surface)
-{
-    mt_backdrop backdrop = {.transparent = options->background == MT_BACKGROUND_TRANSPARENT};
-    if (options->background == MT_BACKGROUND_COLOR) {
-        const double *c = options->background_color;
-        backdrop.top = mt_linear_color(surface, c[0], c[1], c[2]);
-        backdrop.bottom = backdrop.top;
-    } else {
-        backdrop.top = mt_linear_color(surface, 0.965, 0.97, 0.98);
-        backdrop.bottom = mt_linear_color(surface, 0.83, 0.845, 0.865);
-    }
-    return backdrop;
-}
-
 /* Widths grow with the picture, and dots shrink where there are many; a dense wireframe pales, so that the surface is
  * still seen. */
 static void set_strokes(job *j)
@@ -284,7 +214,7 @@ static mt_status draw(mt_context *context, job *j, mt_image *image)
     j->picture.look = &j->look;
     j->picture.rays = series->by_rays ? &series->occluder : NULL;
     j->picture.fine_samples = series->fine_samples;
-    j->picture.backdrop = make_backdrop(&series->options, &j->look.surface);
+    j->picture.backdrop = mt_backdrop_make(&series->options, &j->look.surface);
     j->picture.image = image;
     set_strokes(j);
     mt_status status = mt_picture_draw(context, &j->picture);
@@ -417,28 +347,6 @@ mt_status mt_preview_series_draw(mt_context *context, mt_preview_series *series,
         *report = found;
     }
     *out = image;
-    return MT_OK;
-}
-
-mt_status mt_series_blank(mt_context *context, const mt_preview_series *series, mt_image **out)
-{
-    const mt_preview_options *options = &series->options;
-    bool transparent = options->background == MT_BACKGROUND_TRANSPARENT;
-    mt_status status = mt_image_create(context, options->width, options->height, transparent ? 4 : 3, out);
-    if (status != MT_OK) {
-        return status;
-    }
-    mt_surface surface;
-    mt_surface_init(series->model.mesh, NULL, NULL, &surface);
-    mt_backdrop backdrop = make_backdrop(options, &surface);
-    (*out)->space = MT_COLOR_LINEAR;
-    for (uint32_t y = 0; y < options->height && !transparent; y++) {
-        mt_vec3 color = mt_backdrop_at(&backdrop, y, options->height);
-        for (uint32_t x = 0; x < options->width; x++) {
-            float *pixel = mt_image_pixel(*out, x, y);
-            pixel[0] = (float)color.x, pixel[1] = (float)color.y, pixel[2] = (float)color.z;
-        }
-    }
     return MT_OK;
 }
 

@@ -23,14 +23,15 @@ struct mt_preview_series {
     bool by_rays;
     bool has_occluder;
     mt_occluder occluder;
-    mt_steady steady;
+    mt_steady steady; /* for a turntable, or for the six sides of a sheet */
+    bool shows_sides;
 };
+
+/* MT_ERROR_ARGUMENT for an option out of its range. */
+mt_status mt_preview_check(mt_context *context, const mt_mesh *mesh, const mt_preview_options *options);
 
 /* The camera of one picture: view and turn as in mt_preview_series_draw. */
 mt_status mt_series_camera(mt_context *context, mt_preview_series *series, mt_view_name view, double turn_degrees,
                            mt_camera *camera, mt_view *seen);
-
-/* A picture of the background alone, of the options' size. */
-mt_status mt_series_blank(mt_context *context, const mt_preview_series *series, mt_image **out);
 
 #endif

@@ -43,6 +43,29 @@ static void write_name(const mt_preview_options *options, mt_image *cell, const 
     mt_ink_text(&ink, from_edge + 0.5 * mt_ink_text_width(height, name), from_edge + 0.5 * height, height, name);
 }
 
+/* A cell of the background alone. */
+static mt_status draw_blank(mt_context *context, const mt_preview_series *series, mt_image **out)
+{
+    const mt_preview_options *options = &series->options;
+    bool transparent = options->background == MT_BACKGROUND_TRANSPARENT;
+    mt_status status = mt_image_create(context, options->width, options->height, transparent ? 4 : 3, out);
+    if (status != MT_OK) {
+        return status;
+    }
+    mt_surface surface;
+    mt_surface_init(series->model.mesh, NULL, NULL, &surface);
+    mt_backdrop backdrop = mt_backdrop_make(options, &surface);
+    (*out)->space = MT_COLOR_LINEAR;
+    for (uint32_t y = 0; y < options->height && !transparent; y++) {
+        mt_vec3 color = mt_backdrop_at(&backdrop, y, options->height);
+        for (uint32_t x = 0; x < options->width; x++) {
+            float *pixel = mt_image_pixel(*out, x, y);
+            pixel[0] = (float)color.x, pixel[1] = (float)color.y, pixel[2] = (float)color.z;
+        }
+    }
+    return MT_OK;
+}
+
 static mt_status draw_cell(mt_context *context, mt_preview_series *series, unsigned number, unsigned turns,
                            mt_image **out)
 {
@@ -72,7 +95,7 @@ static mt_status draw_cells(mt_context *context, mt_preview_series *series, unsi
         if (i < count) {
             status = draw_cell(context, series, i, turns, &cell);
         } else {
-            status = mt_series_blank(context, series, &cell);
+            status = draw_blank(context, series, &cell);
         }
         if (status == MT_OK) {
             paste(cell, sheet, x, y);
@@ -88,7 +111,7 @@ mt_status mt_preview_sheet(mt_context *context, const mt_mesh *mesh, const mt_pr
     static const mt_preview_options defaults = {0};
     *out = NULL;
     mt_preview_options own = options ? *options : defaults;
-    own.turntable = turns > 0;
+    own.turntable = true; /* one size in all */
     mt_preview_series *series = NULL;
     mt_image *sheet = NULL;
     mt_status status = mt_preview_series_create(context, mesh, &own, &series);
@@ -98,6 +121,7 @@ mt_status mt_preview_sheet(mt_context *context, const mt_mesh *mesh, const mt_pr
     }
     if (status == MT_OK) {
         sheet->space = MT_COLOR_LINEAR;
+        series->shows_sides = turns == 0;
         status = draw_cells(context, series, turns, sheet);
     }
     mt_preview_series_destroy(context, series);

@@ -69,15 +69,18 @@ static mt_status take(mt_context *context, const mt_preview_series *series, mt_v
     return mt_camera_fit(context, camera, &series->model, &framing);
 }
 
-/* Turns the mesh once around to see how much room it needs. */
+/* Turns the mesh once around, or to its six sides, to see how much room it needs. */
 static mt_status find_steady(mt_context *context, mt_preview_series *series, mt_view_name name, mt_camera camera)
 {
     mt_vec3 target = framing_of(series).target;
     mt_status status = MT_OK;
     mt_steady steady = {.is_set = true};
-    for (int i = 0; status == MT_OK && i < TRIED_TURNS; i++) {
+    int tries = series->shows_sides ? MT_VIEW_BOTTOM : TRIED_TURNS;
+    for (int i = 0; status == MT_OK && i < tries; i++) {
         mt_view seen;
-        status = take(context, series, name, 360.0 * i / TRIED_TURNS, &camera, &seen);
+        double turn = series->shows_sides ? 0.0 : 360.0 * i / TRIED_TURNS;
+        mt_view_name side = series->shows_sides ? (mt_view_name)(MT_VIEW_FRONT + i) : name;
+        status = take(context, series, side, turn, &camera, &seen);
         steady.distance = fmax(steady.distance, mt_vec3_length(mt_vec3_subtract(camera.eye, target)));
         steady.half_width = fmax(steady.half_width, camera.half_width);
         steady.half_height = fmax(steady.half_height, camera.half_height);
