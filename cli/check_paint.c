@@ -55,7 +55,7 @@ static cli_exit write_picture(const cli_job *job, const cli_check *check, const 
     mt_preview_options how = {0};
     cli_defect_paint_apply(paint, &how);
     mt_image *image = NULL;
-    if (mt_preview(job->context, check->mesh, &how, &image) != MT_OK) {
+    if (mt_preview(job->context, &paint->shown, &how, &image) != MT_OK) {
         return cli_report_failure(job, check->file);
     }
     cli_exit code = cli_write_image(job, image, path);

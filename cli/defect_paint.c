@@ -36,6 +36,7 @@ void cli_defect_paint_release(mt_context *context, cli_defect_paint *paint)
     mt_free(context, paint->marked_vertices);
     mt_free(context, paint->edges);
     mt_free(context, paint->edge_colors);
+    mt_free(context, paint->points);
     mt_components_destroy(context, paint->components);
     mt_edge_pairs_destroy(context, paint->pairs);
 }
@@ -84,6 +85,12 @@ static bool marks_vertex(mt_defect_kind kind)
            kind == MT_DEFECT_ISOLATED_VERTEX;
 }
 
+/* Faces that cover no pixel: their vertices are marked instead. */
+static bool marks_corners(mt_defect_kind kind)
+{
+    return kind == MT_DEFECT_ZERO_AREA_FACE || kind == MT_DEFECT_DEGENERATE_FACE;
+}
+
 /* A hole's rim is no fault of the faces beside it. A picture shows by its lines where the orientation changes, and by
  * its light on which side it does; a mesh has its faces' colors alone. */
 static bool paints_faces(mt_defect_kind kind, bool for_picture)
@@ -115,8 +122,9 @@ static void paint_defect(const mt_mesh *mesh, const mt_defect *defect, bool for_
         memcpy(paint->edge_colors + 3 * paint->edge_count, color, 3);
         memcpy(paint->edges + 2 * paint->edge_count++, defect->vertices, 2 * sizeof *paint->edges);
     }
-    if (marks_vertex(defect->kind)) {
-        paint->marked_vertices[defect->vertices[0]] = 1;
+    mt_index mark_count = marks_vertex(defect->kind) ? 1 : marks_corners(defect->kind) ? defect->vertex_count : 0;
+    for (mt_index i = 0; i < mark_count; i++) {
+        paint->marked_vertices[defect->vertices[i]] = 1;
     }
 }
 
@@ -159,12 +167,54 @@ static mt_status paint_all(mt_context *context, const cli_check *check, bool for
     return status;
 }
 
+/* How much larger than the rest isolated vertices may make a picture; those farther out stay outside. */
+#define LARGEST_FRAME 10.0
+
+/* The isolated vertices as points of the mesh, so that the picture's frame takes them in. Returns how many. */
+static mt_index list_points(const cli_check *check, mt_index *points)
+{
+    const mt_mesh *mesh = check->mesh;
+    mt_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    for (mt_index c = 0; c < mesh->corner_count; c++) {
+        mt_vec3 p = mt_mesh_position(mesh, mesh->corner_vertices[c]);
+        low = mt_vec3_make(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
+        high = mt_vec3_make(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
+    }
+    mt_vec3 middle = mt_vec3_add(mt_vec3_scale(low, 0.5), mt_vec3_scale(high, 0.5));
+    double reach = LARGEST_FRAME / 2 * mt_vec3_max_abs(mt_vec3_subtract(high, low));
+    mt_index count = 0;
+    for (size_t i = 0; i < check->report->defect_list_count; i++) {
+        const mt_defect *defect = &check->report->defects[i];
+        if (defect->kind == MT_DEFECT_ISOLATED_VERTEX) {
+            mt_vec3 offset = mt_vec3_subtract(mt_mesh_position(mesh, defect->vertices[0]), middle);
+            points[count] = defect->vertices[0];
+            count += mt_vec3_max_abs(offset) <= reach;
+        }
+    }
+    return count;
+}
+
+static mt_status frame_points(mt_context *context, const cli_check *check, cli_defect_paint *out)
+{
+    uint64_t isolated_count = check->report->defect_counts[MT_DEFECT_ISOLATED_VERTEX];
+    out->points = mt_allocate_array(context, isolated_count + 1, sizeof *out->points);
+    if (out->points && out->shown.point_count == 0 && out->shown.face_count) {
+        out->shown.point_vertices = out->points;
+        out->shown.point_count = list_points(check, out->points);
+    }
+    return out->points ? MT_OK : mt_context_error(context)->status;
+}
+
 mt_status cli_defect_paint_init(mt_context *context, const cli_check *check, bool for_picture, cli_defect_paint *out)
 {
     if (!allocate(context, check, out)) {
         return mt_context_error(context)->status;
     }
+    out->shown = *check->mesh;
     mt_status status = paint_all(context, check, for_picture, out);
+    if (status == MT_OK && for_picture) {
+        status = frame_points(context, check, out);
+    }
     if (status != MT_OK) {
         cli_defect_paint_release(context, out);
     }

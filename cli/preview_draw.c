@@ -215,7 +215,7 @@ static cli_exit draw_defects(const cli_job *job, const mt_mesh *mesh, const mt_m
         code = cli_report_failure(job, job->operands[0]);
     } else {
         cli_defect_paint_apply(&paint, &how);
-        code = draw(job, mesh, read, &how);
+        code = draw(job, &paint.shown, read, &how);
         if (code == CLI_EXIT_DONE) {
             cli_defect_legend(job, &check, job->common->output);
         }

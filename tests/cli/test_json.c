@@ -317,14 +317,16 @@ static void the_others_have_theirs(void **state)
     (void)state;
     static const struct {
         const char *arguments;
-        const char *const keys[10];
+        const char *const keys[12];
     } calls[] = {
         {"convert triangle.off x.ply --json", {"lost"}},
         {"generate cube -o cube.off --json", {"kind", "output", "vertices", "faces", "lost"}},
         {"subdivide cube.off -o x.off -n 2 --json",
          {"file", "format", "output", "levels", "vertices", "faces", "lost"}},
         {"subdivide cube.off --dry-run --json", {"file", "levels"}},
-        {"preview cube.off -o x.png --size 20x10 --json", {"file", "format", "output", "width", "height"}},
+        {"preview cube.off -o x.png --size 20x10 --json",
+         {"file", "format", "output", "width", "height", "pictures", "eye", "target", "units_per_pixel", "scale_bar",
+          "unseen_faces"}},
         {"formats --json", {"meshes", "images"}},
         {"help --json", {"commands"}},
     };
