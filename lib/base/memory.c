@@ -10,7 +10,7 @@
 #include <sys/mman.h>
 
 #define HEADER_SIZE 64
-#define HUGE_BLOCK ((uint64_t)4 << 20)
+#define HUGE_BLOCK ((uint64_t)1 << 20)
 #define HUGE_PAGE ((uint64_t)2 << 20)
 
 typedef struct block_header {

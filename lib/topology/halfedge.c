@@ -3,6 +3,7 @@
  *
  * Cost: O(vertices + corners) time; 12 bytes a half-edge, 4 a vertex and 4 a face kept, 16 a corner more meanwhile. */
 #include "lib/topology/halfedge_fill.h"
+#include "lib/topology/ring_check.h"
 #include "lib/topology/source_mesh.h"
 
 #include <meshtool/degenerate_faces.h>
@@ -36,38 +37,24 @@ static void release_arrays(mt_context *context, mt_halfedge_mesh *structure)
     *structure = (mt_halfedge_mesh){0};
 }
 
-#define WALKERS 32
-
-/* Half-edges met on the way around all vertices. Several vertices are walked around at once, since each step must wait
- * for memory. */
-static uint64_t count_ring_halfedges(const mt_halfedge_mesh *structure)
+static ring_step walk_ring(const void *structure, mt_index vertex, mt_index at)
 {
-    uint64_t count = 0;
-    mt_index begins[WALKERS], at[WALKERS];
-    mt_index active = 0, vertex = 0;
-    while (true) {
-        while (active < WALKERS && vertex < structure->vertex_count) {
-            mt_index begin = structure->vertex_halfedge[vertex++];
-            if (begin != MT_NONE) {
-                begins[active] = at[active] = begin;
-                active++;
-            }
-        }
-        if (active == 0) {
-            return count;
-        }
-        for (mt_index i = 0; i < active;) {
-            at[i] = mt_halfedge_clockwise(structure, at[i]);
-            count++;
-            if (at[i] == begins[i]) {
-                active--;
-                at[i] = at[active];
-                begins[i] = begins[active];
-            } else {
-                i++;
-            }
-        }
-    }
+    const mt_halfedge *halfedges = ((const mt_halfedge_mesh *)structure)->halfedges;
+    mt_index next = halfedges[at].next;
+    (void)vertex;
+    return (ring_step){halfedges[next].head, next ^ 1u};
+}
+
+static void check_rings(void *user, uint64_t begin, uint64_t end)
+{
+    ring_check_vertices(walk_ring, user, begin, end);
+}
+
+/* Whether the rings of all vertices meet every half-edge, and none a neighbour twice. */
+static bool rings_hold(mt_context *context, const mt_halfedge_mesh *structure, bool edges_are_known)
+{
+    ring_check check = {structure, structure->vertex_halfedge, edges_are_known, 0, false};
+    return ring_check_holds(context, check_rings, &check, structure->vertex_count, structure->halfedge_count);
 }
 
 static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_edge_pairs *pairs,
@@ -81,15 +68,14 @@ static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_e
         return status;
     }
     structure->halfedge_count = 2 * pairs->edge_count;
-    bool filled = mt_halfedge_fill(mesh, pairs, structure);
-    if (!filled || count_ring_halfedges(structure) != structure->halfedge_count) {
+    if (!mt_halfedge_fill(mesh, pairs, structure) || !rings_hold(context, structure, true)) {
         return mt_refuse_vertex(context, mesh, WHO_NEEDS);
     }
     return MT_OK;
 }
 
 /* The fast way. Sets *done when the structure is complete; else it is empty, and the slow way finds out why. */
-static mt_status build_by_chains(mt_context *context, const mt_mesh *mesh, mt_halfedge_mesh *structure, bool *done)
+static mt_status build_open(mt_context *context, const mt_mesh *mesh, mt_halfedge_mesh *structure, bool *done)
 {
     uint64_t edge_room = edge_chain_room(mesh);
     bool simple = true;
@@ -97,16 +83,16 @@ static mt_status build_by_chains(mt_context *context, const mt_mesh *mesh, mt_ha
     if (status != MT_OK || !simple || 2 * edge_room > MT_INDEX_MAX) {
         return status;
     }
-    edge_chains chains = {0};
+    open_sides open = {0};
     status = allocate_structure(context, mesh, edge_room, structure);
     if (status == MT_OK) {
-        status = mt_edge_chains_init(context, mesh->vertex_count, (mt_index)edge_room, &chains);
+        status = open_sides_init(context, mesh->vertex_count, &open);
     }
     if (status == MT_OK) {
-        *done = mt_halfedge_fill_by_chains(mesh, &chains, (mt_index)edge_room, structure) &&
-                count_ring_halfedges(structure) == structure->halfedge_count;
+        *done =
+            mt_halfedge_fill_open(mesh, &open, (mt_index)edge_room, structure) && rings_hold(context, structure, false);
     }
-    mt_edge_chains_release(context, &chains);
+    mt_free(context, open.newest);
     if (!*done) {
         release_arrays(context, structure);
     }
@@ -117,7 +103,7 @@ static mt_status build(mt_context *context, const mt_mesh *mesh, mt_halfedge_mes
 {
     bool done = false;
     if (mt_edge_chains_suit(mesh)) {
-        mt_status status = build_by_chains(context, mesh, structure, &done);
+        mt_status status = build_open(context, mesh, structure, &done);
         if (status != MT_OK || done) {
             return status;
         }

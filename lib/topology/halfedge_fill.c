@@ -1,8 +1,8 @@
 /* One pass over the corners numbers the edges and writes all that belongs to faces: an edge's number is known at its
  * first corner, and its second, later one finds it there, by way of the pairs or, faster where faces lie near each
- * other, by the chains that pairing uses too. Boundary loops are linked afterwards.
+ * other, among the open sides of its vertex. Boundary loops are linked afterwards.
  *
- * Cost: O(corners) time, no memory but the chains. */
+ * Cost: O(corners) time, no memory but the lists' heads. */
 #include "lib/topology/halfedge_fill.h"
 #include "lib/topology/inline.h"
 
@@ -157,34 +157,37 @@ bool mt_halfedge_fill(const mt_mesh *mesh, mt_edge_pairs *pairs, mt_halfedge_mes
     return pairs->boundary_count == 0 || close_boundary(structure);
 }
 
-/* The pass over the faces by chains. */
-typedef struct chain_filling {
-    edge_chains chains;
+/* The pass over the faces by open sides: the odd half-edges without a face that leave a vertex are linked by `next`. */
+typedef struct open_filling {
+    open_sides open;
     mt_halfedge *halfedges;
     mt_index *vertex_halfedge;
-    bool fits; /* nothing met so far that half-edges cannot hold */
-} chain_filling;
+    mt_index edge_count;
+    bool fits; /* no side from a vertex to itself so far */
+} open_filling;
 
-/* The half-edge of a side. That of a new edge is the even one, and the odd one is made a boundary half-edge meanwhile.
- * The entry keeps where the edge's second side must head for, MT_NONE once there is one: the half-edges themselves,
- * which may be far away, are only written. */
-MT_ALWAYS_INLINE mt_index place_side(chain_filling *fill, mt_index tail, mt_index head)
+/* The half-edge of a side: the open one that runs its way, or the even one of a new edge. */
+MT_ALWAYS_INLINE mt_index place_side(open_filling *fill, mt_index tail, mt_index head)
 {
     fill->fits &= tail != head;
-    mt_index count = fill->chains.entry_count;
-    mt_index edge = edge_chain_find(&fill->chains, tail < head ? tail : head, tail < head ? head : tail);
-    chain_entry *entry = &fill->chains.entries[edge];
-    if (edge == count) {
-        entry->note = tail;
-        fill->halfedges[2 * edge + 1] = (mt_halfedge){MT_NONE, tail, MT_NONE};
-        return 2 * edge;
+    mt_index *link = &fill->open.newest[tail];
+    mt_index at = *link;
+    while (at != MT_NONE && fill->halfedges[at].head != head) {
+        link = &fill->halfedges[at].next;
+        at = *link;
+        fill->open.steps++;
     }
-    fill->fits &= entry->note == head;
-    entry->note = MT_NONE;
-    return 2 * edge + 1;
+    if (at != MT_NONE) {
+        *link = fill->halfedges[at].next;
+        return at;
+    }
+    mt_index halfedge = 2 * fill->edge_count++;
+    fill->halfedges[halfedge + 1] = (mt_halfedge){fill->open.newest[head], tail, MT_NONE};
+    fill->open.newest[head] = halfedge + 1;
+    return halfedge;
 }
 
-MT_ALWAYS_INLINE mt_index place_triangle(chain_filling *fill, const mt_index *vertex, mt_index face)
+MT_ALWAYS_INLINE mt_index place_triangle(open_filling *fill, const mt_index *vertex, mt_index face)
 {
     mt_index a = place_side(fill, vertex[0], vertex[1]);
     mt_index b = place_side(fill, vertex[1], vertex[2]);
@@ -198,7 +201,7 @@ MT_ALWAYS_INLINE mt_index place_triangle(chain_filling *fill, const mt_index *ve
     return a;
 }
 
-MT_ALWAYS_INLINE mt_index place_polygon(chain_filling *fill, const mt_index *vertices, mt_index sides, mt_index face)
+MT_ALWAYS_INLINE mt_index place_polygon(open_filling *fill, const mt_index *vertices, mt_index sides, mt_index face)
 {
     mt_index first = MT_NONE, previous = MT_NONE;
     for (mt_index i = 0; i < sides; i++) {
@@ -216,25 +219,24 @@ MT_ALWAYS_INLINE mt_index place_polygon(chain_filling *fill, const mt_index *ver
     return first;
 }
 
-bool mt_halfedge_fill_by_chains(const mt_mesh *mesh, edge_chains *chains, mt_index edge_room,
-                                mt_halfedge_mesh *structure)
+bool mt_halfedge_fill_open(const mt_mesh *mesh, const open_sides *open, mt_index edge_room, mt_halfedge_mesh *structure)
 {
     memset(structure->vertex_halfedge, 0xff, structure->vertex_count * sizeof *structure->vertex_halfedge);
-    chain_filling fill = {*chains, structure->halfedges, structure->vertex_halfedge, true};
+    open_filling fill = {*open, structure->halfedges, structure->vertex_halfedge, 0, true};
     mt_index *face_halfedge = structure->face_halfedge;
     uint64_t step_limit = edge_chain_step_limit(mesh->corner_count);
     mt_index face = 0;
-    for (; face < mesh->face_count && fill.fits && fill.chains.steps <= step_limit; face++) {
+    for (; face < mesh->face_count && fill.fits && fill.open.steps <= step_limit; face++) {
         mt_index begin = mt_mesh_face_begin(mesh, face);
         mt_index sides = mt_mesh_face_end(mesh, face) - begin;
         const mt_index *vertices = mesh->corner_vertices + begin;
-        if (sides > edge_room - fill.chains.entry_count) {
+        if (sides > edge_room - fill.edge_count) {
             return false;
         }
         face_halfedge[face] =
             sides == 3 ? place_triangle(&fill, vertices, face) : place_polygon(&fill, vertices, sides, face);
     }
-    structure->halfedge_count = 2 * fill.chains.entry_count;
+    structure->halfedge_count = 2 * fill.edge_count;
     bool complete = face == mesh->face_count && fill.fits;
     return complete && (structure->halfedge_count == mesh->corner_count || close_boundary(structure));
 }

@@ -1,7 +1,7 @@
 /* Paired sides are nearly the packed neighbours themselves: the array is taken over, and only the boundary differs.
- * Where faces lie near each other one pass by the chains that pairing uses too does all at once.
+ * Where faces lie near each other one pass by open sides does all at once.
  *
- * Cost: O(corners) time, no memory but the chains. */
+ * Cost: O(corners) time, no memory but the lists' heads. */
 #include "lib/topology/triangle_fill.h"
 
 #include <string.h>
@@ -38,56 +38,68 @@ void mt_triangle_fill(const mt_mesh *mesh, mt_edge_pairs *pairs, mt_triangle_nei
     }
 }
 
-typedef struct triangle_filling {
-    edge_chains chains;
+/* The pass over the triangles by open sides, which are linked by their neighbours. */
+typedef struct open_filling {
+    open_sides open;
     mt_index *vertices;
     mt_index *neighbors;
     mt_index *vertex_corner;
-    bool fits; /* nothing met so far that the structure cannot hold */
-} triangle_filling;
+    mt_index pair_count;
+    bool fits; /* no side from a vertex to itself so far */
+} open_filling;
 
-/* An entry notes its edge's first side, as 2 * corner + whether it runs to the higher vertex, until the second has
- * come: so what lies at the first side, which may be far away, is only written. Without a branch on which of the two
- * this is, which would be mispredicted every other time. */
-MT_ALWAYS_INLINE void place_side(triangle_filling *fill, mt_index tail, mt_index head, mt_index corner)
+MT_ALWAYS_INLINE void place_side(open_filling *fill, mt_index tail, mt_index head, mt_index corner)
 {
-    mt_index count = fill->chains.entry_count;
-    mt_index edge = edge_chain_find(&fill->chains, tail < head ? tail : head, tail < head ? head : tail);
-    mt_index *note = &fill->chains.entries[edge].note;
-    bool is_first = edge == count;
-    mt_index up = tail < head;
-    mt_index own = 2 * corner + up;
-    mt_index met = is_first ? own : *note;
-    bool is_third = met == MT_NONE;
-    mt_index first = is_third ? corner : met >> 1;
+    fill->fits &= tail != head;
     fill->vertices[corner] = tail;
     fill->vertex_corner[tail] = corner;
-    fill->neighbors[first] = corner;
-    fill->neighbors[corner] = is_first ? MT_NONE : first;
-    *note = is_first ? own : MT_NONE;
-    fill->fits &= (tail != head) & (is_first | (!is_third & ((met & 1u) != up)));
+    mt_index *link = &fill->open.newest[tail];
+    mt_index at = *link;
+    while (at != MT_NONE && fill->vertices[at] != head) {
+        link = &fill->neighbors[at];
+        at = *link;
+        fill->open.steps++;
+    }
+    if (at != MT_NONE) {
+        *link = fill->neighbors[at];
+        fill->neighbors[at] = corner;
+        fill->neighbors[corner] = at;
+        fill->pair_count++;
+    } else {
+        fill->neighbors[corner] = fill->open.newest[head];
+        fill->open.newest[head] = corner;
+    }
 }
 
-bool mt_triangle_fill_by_chains(const mt_mesh *mesh, edge_chains *chains, mt_index edge_room,
-                                mt_triangle_neighbor_mesh *structure)
+/* Sides that are still open are the boundary; the corner that one leaves is where its vertex's fan begins. */
+static void close_lists(const open_filling *fill, mt_index vertex_count)
+{
+    for (mt_index vertex = 0; vertex < vertex_count; vertex++) {
+        for (mt_index at = fill->open.newest[vertex]; at != MT_NONE;) {
+            mt_index next = fill->neighbors[at];
+            fill->neighbors[at] = MT_NONE;
+            fill->vertex_corner[fill->vertices[at]] = at;
+            at = next;
+        }
+    }
+}
+
+bool mt_triangle_fill_open(const mt_mesh *mesh, const open_sides *open, mt_triangle_neighbor_mesh *structure)
 {
     forget_corners(structure);
-    triangle_filling fill = {*chains, structure->vertices, structure->neighbors, structure->vertex_corner, true};
+    open_filling fill = {*open, structure->vertices, structure->neighbors, structure->vertex_corner, 0, true};
     uint64_t step_limit = edge_chain_step_limit(mesh->corner_count);
     const mt_index *vertex = mesh->corner_vertices;
     mt_index corner = 0;
-    for (; corner < mesh->corner_count && fill.fits && fill.chains.steps <= step_limit; corner += 3, vertex += 3) {
-        if (edge_room - fill.chains.entry_count < 3) {
-            return false;
-        }
+    for (; corner < mesh->corner_count && fill.fits && fill.open.steps <= step_limit; corner += 3, vertex += 3) {
         mt_index a = vertex[0], b = vertex[1], c = vertex[2];
         place_side(&fill, a, b, corner);
         place_side(&fill, b, c, corner + 1);
         place_side(&fill, c, a, corner + 2);
     }
     bool complete = fill.fits && corner == mesh->corner_count;
-    if (complete && 2 * (uint64_t)fill.chains.entry_count != mesh->corner_count) {
-        open_fans(structure);
+    if (complete && 2 * (uint64_t)fill.pair_count != mesh->corner_count) {
+        close_lists(&fill, mesh->vertex_count);
     }
     return complete;
 }

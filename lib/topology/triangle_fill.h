@@ -2,7 +2,7 @@
 #ifndef MT_TOPOLOGY_TRIANGLE_FILL_H
 #define MT_TOPOLOGY_TRIANGLE_FILL_H
 
-#include "lib/topology/edge_chain.h"
+#include "lib/topology/open_sides.h"
 
 #include <meshtool/edge_pairs.h>
 #include <meshtool/triangle_neighbor.h>
@@ -13,9 +13,8 @@
 /* From paired sides, all boundary or regular, whose array becomes the neighbours. */
 void mt_triangle_fill(const mt_mesh *mesh, mt_edge_pairs *pairs, mt_triangle_neighbor_mesh *structure);
 
-/* From the triangles themselves, with fewer than 2^31 corners, by way of empty chains with room for edge_room edges.
- * False when that is too little or the structure cannot hold the mesh. */
-bool mt_triangle_fill_by_chains(const mt_mesh *mesh, edge_chains *chains, mt_index edge_room,
-                                mt_triangle_neighbor_mesh *structure);
+/* From the triangles themselves. False when lists grow long or the structure cannot hold the mesh; where it can, rings
+ * still have to be checked. */
+bool mt_triangle_fill_open(const mt_mesh *mesh, const open_sides *open, mt_triangle_neighbor_mesh *structure);
 
 #endif

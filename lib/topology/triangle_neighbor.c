@@ -6,16 +6,13 @@
  * Cost: O(vertices + corners) time; 24 bytes a triangle and 4 a vertex kept, what pairing needs meanwhile. */
 #include <meshtool/refusal.h>
 
+#include "lib/topology/ring_check.h"
 #include "lib/topology/source_mesh.h"
 #include "lib/topology/triangle_fill.h"
 
-#include <stdatomic.h>
 #include <string.h>
 
 #define WHO_NEEDS "triangle neighbours need"
-
-#define GRAIN 16384
-#define WALKERS 32
 
 static mt_status refuse_polygons(mt_context *context, const mt_mesh *mesh)
 {
@@ -34,43 +31,30 @@ static mt_status refuse_polygons(mt_context *context, const mt_mesh *mesh)
     return MT_OK;
 }
 
-typedef struct fan_count {
-    const mt_triangle_neighbor_mesh *structure;
-    atomic_uint corners;
-} fan_count;
-
-/* Several vertices are walked around at once, since each step must wait for memory. */
-static void count_fans(void *user, uint64_t begin, uint64_t end)
+static ring_step walk_fan(const void *structure, mt_index vertex, mt_index at)
 {
-    fan_count *count = user;
-    const mt_triangle_neighbor_mesh *structure = count->structure;
-    mt_index begins[WALKERS], at[WALKERS];
-    mt_index active = 0, corners = 0;
-    for (uint64_t vertex = begin; vertex < end || active > 0;) {
-        while (active < WALKERS && vertex < end) {
-            begins[active] = at[active] = structure->vertex_corner[vertex++];
-            active += at[active] != MT_NONE;
-        }
-        for (mt_index i = 0; i < active;) {
-            at[i] = mt_triangle_neighbor_counterclockwise(structure, at[i]);
-            corners++;
-            if (at[i] == begins[i] || at[i] == MT_NONE) {
-                active--;
-                at[i] = at[active];
-                begins[i] = begins[active];
-            } else {
-                i++;
-            }
-        }
+    const mt_triangle_neighbor_mesh *triangles = structure;
+    mt_index side = mt_triangle_previous_corner(at);
+    mt_index next = triangles->neighbors[side];
+    if (next == MT_NONE) {
+        next = triangles->vertex_corner[vertex];
     }
-    atomic_fetch_add(&count->corners, corners);
+    return (ring_step){triangles->vertices[side], next};
 }
 
-static bool has_one_fan_a_vertex(mt_context *context, const mt_triangle_neighbor_mesh *structure)
+static void check_fans(void *user, uint64_t begin, uint64_t end)
 {
-    fan_count count = {structure, 0};
-    mt_parallel_for(context, structure->vertex_count, GRAIN, count_fans, &count);
-    return count.corners == 3 * structure->triangle_count;
+    ring_check_vertices(walk_fan, user, begin, end);
+}
+
+/* Whether the fans of all vertices meet every corner, and none a neighbour twice. On the boundary the first neighbour
+ * is not looked at: were it met twice, so would this vertex be in its fan, since opposite open sides have been joined.
+ */
+static bool fans_hold(mt_context *context, const mt_triangle_neighbor_mesh *structure, bool edges_are_known)
+{
+    ring_check check = {structure, structure->vertex_corner, edges_are_known, 0, false};
+    return ring_check_holds(context, check_fans, &check, structure->vertex_count,
+                            3 * (uint64_t)structure->triangle_count);
 }
 
 static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_triangle_neighbor_mesh *structure)
@@ -82,26 +66,23 @@ static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_t
     }
     if (status == MT_OK) {
         mt_triangle_fill(mesh, pairs, structure);
-        status = has_one_fan_a_vertex(context, structure) ? MT_OK : mt_refuse_vertex(context, mesh, WHO_NEEDS);
+        status = fans_hold(context, structure, true) ? MT_OK : mt_refuse_vertex(context, mesh, WHO_NEEDS);
     }
     mt_edge_pairs_destroy(context, pairs);
     return status;
 }
 
 /* The fast way. Sets *done when the structure is complete; else the slow way finds out why. */
-static mt_status build_by_chains(mt_context *context, const mt_mesh *mesh, mt_triangle_neighbor_mesh *structure,
-                                 bool *done)
+static mt_status build_open(mt_context *context, const mt_mesh *mesh, mt_triangle_neighbor_mesh *structure, bool *done)
 {
-    edge_chains chains = {0};
-    uint64_t edge_room = edge_chain_room(mesh);
-    mt_status status = mt_edge_chains_init(context, mesh->vertex_count, (mt_index)edge_room, &chains);
+    open_sides open;
+    mt_status status = open_sides_init(context, mesh->vertex_count, &open);
     structure->neighbors = mt_allocate_array(context, mesh->corner_count, sizeof *structure->neighbors);
     if (status == MT_OK && structure->neighbors) {
-        *done = mt_triangle_fill_by_chains(mesh, &chains, (mt_index)edge_room, structure) &&
-                has_one_fan_a_vertex(context, structure);
+        *done = mt_triangle_fill_open(mesh, &open, structure) && fans_hold(context, structure, false);
     }
     status = structure->neighbors ? status : MT_ERROR_OUT_OF_MEMORY;
-    mt_edge_chains_release(context, &chains);
+    mt_free(context, open.newest);
     if (!*done) {
         mt_free(context, structure->neighbors);
         structure->neighbors = NULL;
@@ -119,8 +100,8 @@ static mt_status build(mt_context *context, const mt_mesh *mesh, mt_triangle_nei
         return MT_ERROR_OUT_OF_MEMORY;
     }
     bool done = false;
-    if (mesh->corner_count < INT32_MAX && mt_edge_chains_suit(mesh)) {
-        mt_status status = build_by_chains(context, mesh, structure, &done);
+    if (mt_edge_chains_suit(mesh)) {
+        mt_status status = build_open(context, mesh, structure, &done);
         if (status != MT_OK || done) {
             return status;
         }

@@ -4,60 +4,31 @@
  * That no vertex has several fans shows in a count: one ring a vertex is walked, and every edge must be met twice.
  *
  * Cost: O(vertices + corners) time; 32 bytes an edge, 4 a vertex and 4 a face kept, 16 a corner more meanwhile. */
+#include "lib/topology/ring_check.h"
 #include "lib/topology/source_mesh.h"
 #include "lib/topology/winged_fill.h"
 
 #include <meshtool/refusal.h>
 
-#include <stdatomic.h>
-
 #define WHO_NEEDS "winged edges need"
 
-#define GRAIN 16384
-#define WALKERS 32
-
-typedef struct ring_count {
-    const mt_winged_edge_mesh *structure;
-    atomic_ullong edges;
-} ring_count;
-
-typedef struct ring_walker {
-    mt_index vertex, begin, at;
-} ring_walker;
-
-/* Several vertices are walked around at once, since each step must wait for memory. */
-static void count_rings(void *user, uint64_t begin, uint64_t end)
+static ring_step walk_ring(const void *structure, mt_index vertex, mt_index at)
 {
-    ring_count *count = user;
-    const mt_winged_edge_mesh *structure = count->structure;
-    ring_walker walkers[WALKERS];
-    mt_index active = 0;
-    uint64_t edges = 0;
-    for (uint64_t vertex = begin; vertex < end || active > 0;) {
-        while (active < WALKERS && vertex < end) {
-            mt_index edge = structure->vertex_edge[vertex];
-            walkers[active] = (ring_walker){(mt_index)vertex++, edge, edge};
-            active += edge != MT_NONE;
-        }
-        for (mt_index i = 0; i < active;) {
-            ring_walker *walker = &walkers[i];
-            walker->at = mt_winged_edge_counterclockwise(structure, walker->at, walker->vertex);
-            edges++;
-            if (walker->at == walker->begin) {
-                *walker = walkers[--active];
-            } else {
-                i++;
-            }
-        }
-    }
-    atomic_fetch_add(&count->edges, edges);
+    const mt_winged_edge *edge = &((const mt_winged_edge_mesh *)structure)->edges[at];
+    bool leaves = edge->tail == vertex;
+    return (ring_step){leaves ? edge->head : edge->tail, leaves ? edge->lprev : edge->rprev};
 }
 
-static bool has_one_ring_a_vertex(mt_context *context, const mt_winged_edge_mesh *structure)
+static void check_rings(void *user, uint64_t begin, uint64_t end)
 {
-    ring_count count = {structure, 0};
-    mt_parallel_for(context, structure->vertex_count, GRAIN, count_rings, &count);
-    return count.edges == 2 * (uint64_t)structure->edge_count;
+    ring_check_vertices(walk_ring, user, begin, end);
+}
+
+/* Whether the rings of all vertices meet every edge at both ends, and none a neighbour twice. */
+static bool rings_hold(mt_context *context, const mt_winged_edge_mesh *structure, bool edges_are_known)
+{
+    ring_check check = {structure, structure->vertex_edge, edges_are_known, 0, false};
+    return ring_check_holds(context, check_rings, &check, structure->vertex_count, 2 * (uint64_t)structure->edge_count);
 }
 
 static mt_status allocate_edges(mt_context *context, uint64_t edge_count, mt_winged_edge_mesh *structure)
@@ -83,14 +54,14 @@ static mt_status build_from_pairs(mt_context *context, const mt_mesh *mesh, mt_w
     }
     if (status == MT_OK) {
         mt_winged_fill(mesh, pairs, structure);
-        status = has_one_ring_a_vertex(context, structure) ? MT_OK : mt_refuse_vertex(context, mesh, WHO_NEEDS);
+        status = rings_hold(context, structure, true) ? MT_OK : mt_refuse_vertex(context, mesh, WHO_NEEDS);
     }
     mt_edge_pairs_destroy(context, pairs);
     return status;
 }
 
 /* The fast way. Sets *done when the structure is complete; else the slow way finds out why. */
-static mt_status build_by_chains(mt_context *context, const mt_mesh *mesh, mt_winged_edge_mesh *structure, bool *done)
+static mt_status build_open(mt_context *context, const mt_mesh *mesh, mt_winged_edge_mesh *structure, bool *done)
 {
     uint64_t edge_room = edge_chain_room(mesh);
     bool simple = true;
@@ -98,16 +69,16 @@ static mt_status build_by_chains(mt_context *context, const mt_mesh *mesh, mt_wi
     if (status != MT_OK || !simple || 2 * edge_room > MT_INDEX_MAX) {
         return status;
     }
-    edge_chains chains = {0};
+    open_sides open = {0};
     status = allocate_edges(context, edge_room, structure);
     if (status == MT_OK) {
-        status = mt_edge_chains_init(context, mesh->vertex_count, (mt_index)edge_room, &chains);
+        status = open_sides_init(context, mesh->vertex_count, &open);
     }
     if (status == MT_OK) {
-        *done = mt_winged_fill_by_chains(mesh, &chains, (mt_index)edge_room, structure) &&
-                has_one_ring_a_vertex(context, structure);
+        *done =
+            mt_winged_fill_open(mesh, &open, (mt_index)edge_room, structure) && rings_hold(context, structure, false);
     }
-    mt_edge_chains_release(context, &chains);
+    mt_free(context, open.newest);
     if (!*done) {
         mt_free(context, structure->edges);
         structure->edges = NULL;
@@ -126,7 +97,7 @@ static mt_status build(mt_context *context, const mt_mesh *mesh, mt_winged_edge_
     }
     bool done = false;
     if (mt_edge_chains_suit(mesh)) {
-        mt_status status = build_by_chains(context, mesh, structure, &done);
+        mt_status status = build_open(context, mesh, structure, &done);
         if (status != MT_OK || done) {
             return status;
         }

@@ -1,8 +1,8 @@
 /* One pass over the corners numbers the edges and writes all that belongs to faces: an edge's number is known at its
  * first corner, and its second, later one finds it there, by way of the pairs or, faster where faces lie near each
- * other, by the chains that pairing uses too. Holes are linked afterwards.
+ * other, among the open sides of its vertex. Holes are linked afterwards.
  *
- * Cost: O(corners) time, no memory but the chains. */
+ * Cost: O(corners) time, no memory but the lists' heads. */
 #include "lib/topology/winged_fill.h"
 #include "lib/topology/inline.h"
 
@@ -183,33 +183,40 @@ void mt_winged_fill(const mt_mesh *mesh, mt_edge_pairs *pairs, mt_winged_edge_me
     }
 }
 
-/* The pass over the faces by chains. */
-typedef struct chain_filling {
-    edge_chains chains;
-    edge_records records;
-    bool fits; /* nothing met so far that winged edges cannot hold */
-} chain_filling;
-
-/* The side of an edge: the left of a new one, with the outside to its right meanwhile. The entry notes where the edge's
- * second side must head for, MT_NONE once there is one: the edges themselves, which may be far away, are only written.
+/* The pass over the faces by open sides: edges without a right face, of one head, are linked by the first wing there.
  */
-MT_ALWAYS_INLINE mt_index place_side(chain_filling *fill, mt_index tail, mt_index head)
+typedef struct open_filling {
+    open_sides open;
+    edge_records records;
+    mt_index edge_count;
+    bool fits; /* no side from a vertex to itself so far */
+} open_filling;
+
+/* The side of an edge: the right of an open one that runs the other way, or the left of a new one. */
+MT_ALWAYS_INLINE mt_index place_side(open_filling *fill, mt_index tail, mt_index head)
 {
     fill->fits &= tail != head;
-    mt_index count = fill->chains.entry_count;
-    mt_index edge = edge_chain_find(&fill->chains, tail < head ? tail : head, tail < head ? head : tail);
-    mt_index *note = &fill->chains.entries[edge].note;
-    if (edge == count) {
-        *note = tail;
-        fill->records.edges[edge].faces[1] = MT_NONE;
-        return 2 * edge;
+    edge_record *edges = fill->records.edges;
+    mt_index *link = &fill->open.newest[tail];
+    mt_index at = *link;
+    while (at != MT_NONE && edges[at].vertices[1] != head) {
+        link = &edges[at].wings[1][0];
+        at = *link;
+        fill->open.steps++;
     }
-    fill->fits &= *note == head;
-    *note = MT_NONE;
-    return 2 * edge + 1;
+    if (at != MT_NONE) {
+        *link = edges[at].wings[1][0];
+        return 2 * at + 1;
+    }
+    mt_index edge = fill->edge_count++;
+    edges[edge].vertices[1] = tail;
+    edges[edge].faces[1] = MT_NONE;
+    edges[edge].wings[1][0] = fill->open.newest[head];
+    fill->open.newest[head] = edge;
+    return 2 * edge;
 }
 
-MT_ALWAYS_INLINE mt_index place_polygon(chain_filling *fill, const mt_index *vertices, mt_index sides, mt_index face)
+MT_ALWAYS_INLINE mt_index place_polygon(open_filling *fill, const mt_index *vertices, mt_index sides, mt_index face)
 {
     mt_index first = place_side(fill, vertices[0], vertices[1]);
     write_side(&fill->records, first, vertices[0], vertices[1], face);
@@ -227,7 +234,7 @@ MT_ALWAYS_INLINE mt_index place_polygon(chain_filling *fill, const mt_index *ver
     return first >> 1;
 }
 
-MT_ALWAYS_INLINE mt_index place_triangle(chain_filling *fill, const mt_index *vertex, mt_index face)
+MT_ALWAYS_INLINE mt_index place_triangle(open_filling *fill, const mt_index *vertex, mt_index face)
 {
     mt_index a = place_side(fill, vertex[0], vertex[1]);
     mt_index b = place_side(fill, vertex[1], vertex[2]);
@@ -236,24 +243,25 @@ MT_ALWAYS_INLINE mt_index place_triangle(chain_filling *fill, const mt_index *ve
     return a >> 1;
 }
 
-bool mt_winged_fill_by_chains(const mt_mesh *mesh, edge_chains *chains, mt_index edge_room,
-                              mt_winged_edge_mesh *structure)
+bool mt_winged_fill_open(const mt_mesh *mesh, const open_sides *open, mt_index edge_room,
+                         mt_winged_edge_mesh *structure)
 {
     forget_edges(structure);
-    chain_filling fill = {*chains, {(edge_record *)structure->edges, structure->vertex_edge}, true};
+    open_filling fill = {*open, {(edge_record *)structure->edges, structure->vertex_edge}, 0, true};
+    mt_index *face_edge = structure->face_edge;
     uint64_t step_limit = edge_chain_step_limit(mesh->corner_count);
     mt_index face = 0;
-    for (; face < mesh->face_count && fill.fits && fill.chains.steps <= step_limit; face++) {
+    for (; face < mesh->face_count && fill.fits && fill.open.steps <= step_limit; face++) {
         mt_index begin = mt_mesh_face_begin(mesh, face);
         mt_index sides = mt_mesh_face_end(mesh, face) - begin;
         const mt_index *vertices = mesh->corner_vertices + begin;
-        if (sides > edge_room - fill.chains.entry_count) {
+        if (sides > edge_room - fill.edge_count) {
             return false;
         }
-        structure->face_edge[face] =
+        face_edge[face] =
             sides == 3 ? place_triangle(&fill, vertices, face) : place_polygon(&fill, vertices, sides, face);
     }
-    structure->edge_count = fill.chains.entry_count;
+    structure->edge_count = fill.edge_count;
     bool complete = fill.fits && face == mesh->face_count;
     if (complete && 2 * (uint64_t)structure->edge_count != mesh->corner_count) {
         link_boundary(structure);
