@@ -1,7 +1,8 @@
-/* Building and unbuilding the half-edge structure. Sides are paired first (edge_pairs.c); a mesh that the structure
- * cannot hold is refused with its first offender (refusal.c), never thinned out.
+/* Building and unbuilding the half-edge structure: in one pass where faces lie near each other, else from paired sides.
+ * A mesh that the structure cannot hold is refused with its first offender (refusal.c), never thinned out.
  *
- * Cost: O(vertices + corners) time; 12 bytes a half-edge, 4 a vertex and 4 a face kept, 16 a corner more meanwhile. */
+ * Cost: O(vertices + corners) time; 12 bytes a half-edge, 4 a vertex and 4 a face kept; meanwhile 4 a vertex more, or
+ * from pairs 16 a corner. */
 #include "lib/topology/halfedge_fill.h"
 #include "lib/topology/ring_check.h"
 #include "lib/topology/source_mesh.h"

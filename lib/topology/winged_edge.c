@@ -3,7 +3,8 @@
  *
  * That no vertex has several fans shows in a count: one ring a vertex is walked, and every edge must be met twice.
  *
- * Cost: O(vertices + corners) time; 32 bytes an edge, 4 a vertex and 4 a face kept, 16 a corner more meanwhile. */
+ * Cost: O(vertices + corners) time; 32 bytes an edge, 4 a vertex and 4 a face kept; meanwhile 4 a vertex more,
+ * or from pairs 16 a corner. */
 #include "lib/topology/ring_check.h"
 #include "lib/topology/source_mesh.h"
 #include "lib/topology/winged_fill.h"

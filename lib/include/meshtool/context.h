@@ -88,7 +88,7 @@ mt_status mt_fail_at(mt_context *context, mt_status status, mt_place place, cons
 /* Sends one sentence to the warning callback, if there is one. Not inside a parallel body. */
 void mt_warn(mt_context *context, const char *format, ...) MT_PRINTF(2, 3);
 
-/* Memory. Sizes are counted against the limit. A size of 0 gives a valid block. Blocks of 4 MB
+/* Memory. Sizes are counted against the limit. A size of 0 gives a valid block. Blocks of 1 MB
  * and more begin on a 2 MB page and are advised to huge pages: fresh 4 KB pages cost more than the
  * algorithms that fill them. All blocks are aligned to 64 bytes. Free with mt_free, with the same
  * context. mt_allocate and its kin record MT_ERROR_OUT_OF_MEMORY and return NULL on failure;
