@@ -1,5 +1,5 @@
-// The sum of the neighbours' positions at every vertex, through each structure and a plain list of neighbours, beside
-// OpenMesh's circulator.
+// The sum of the neighbours' positions at every vertex, around each vertex through each structure and a plain list of
+// neighbours, and by the functions for such sums, which pass over the structure once; beside OpenMesh's circulator.
 #include "tests/bench/bench.hpp"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
@@ -147,6 +147,22 @@ const Walk walks[] = {
     {"one-ring plain list", by_list},
 };
 
+double *sums_of(const Ring &ring)
+{
+    return &ring.sums[0].x;
+}
+
+// On one thread, whatever the context: it is not used.
+const struct {
+    const char *name;
+    void (*sum)(const Ring &ring);
+} passes[] = {
+    {"neighbour sums half-edges",
+     [](const Ring &ring) { mt_halfedge_sum_neighbors(ring.halfedges, ring.positions, 3, sums_of(ring)); }},
+    {"neighbour sums triangles",
+     [](const Ring &ring) { mt_triangle_neighbor_sum_neighbors(ring.triangles, ring.positions, 3, sums_of(ring)); }},
+};
+
 void compare_on(std::uint64_t size, bool shuffled)
 {
     mt_context *context = shared_context();
@@ -162,16 +178,23 @@ void compare_on(std::uint64_t size, bool shuffled)
     fill_list(ring);
     fill_peer(ring);
     by_openmesh(ring);
+    Row row;
+    row.mesh = shuffled ? "torus shuffled" : "torus";
+    row.faces = mesh->face_count;
+    row.peer = "OpenMesh";
     for (const Walk &walk : walks) {
-        Row row;
         row.name = walk.name;
-        row.mesh = shuffled ? "torus shuffled" : "torus";
-        row.faces = mesh->face_count;
-        row.peer = "OpenMesh";
         walk.body(&ring, 0, mesh->vertex_count);
         row.error = largest_difference(ring);
         auto ours = [&](mt_context *with) { mt_parallel_for(with, mesh->vertex_count, 8192, walk.body, &ring); };
         compare(row, ours, [&] { by_openmesh(ring); });
+    }
+    for (const auto &pass : passes) {
+        row.name = pass.name;
+        pass.sum(ring);
+        row.error = largest_difference(ring);
+        compare(
+            row, [&](mt_context *) { pass.sum(ring); }, [&] { by_openmesh(ring); });
     }
     mt_halfedge_destroy(context, ring.halfedges);
     mt_winged_edge_destroy(context, ring.winged);

@@ -244,26 +244,6 @@ static void structures_agree_with_the_faces(void **state)
     test_context_end(context);
 }
 
-/* Two tetrahedra with the edge 0 1 in common, its four sides in an order that joins each to one of the other
- * tetrahedron: then both ends have a single fan, which only its meeting the other end twice gives away. */
-static void an_edge_of_two_crossed_pairs_is_refused(void **state)
-{
-    (void)state;
-    static const mt_index corners[] = {0, 1, 2, 0, 1, 4, 1, 0, 3, 1, 0, 5, 0, 2, 3, 1, 3, 2, 0, 4, 5, 1, 5, 4};
-    mt_context *context = test_context();
-    mt_mesh_layout layout = {.vertex_count = 6, .face_count = 8, .face_size = 3, .position_type = MT_F64};
-    mt_mesh *mesh = NULL;
-    assert_int_equal(mt_mesh_create(context, &layout, &mesh), MT_OK);
-    memcpy(mesh->corner_vertices, corners, sizeof corners);
-    for (mt_index v = 0; v < 6; v++) {
-        mt_mesh_set_position(mesh, v, (mt_vec3){v, v * v, 1});
-    }
-    assert_int_equal(expected_status(mesh), MT_ERROR_NOT_MANIFOLD);
-    assert_false(expect_mesh(context, mesh));
-    mt_mesh_destroy(context, mesh);
-    test_context_end(context);
-}
-
 static void small_meshes_are_held(void **state)
 {
     (void)state;
@@ -416,7 +396,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(structures_agree_with_the_faces),
-        cmocka_unit_test(an_edge_of_two_crossed_pairs_is_refused),
         cmocka_unit_test(small_meshes_are_held),
         cmocka_unit_test(large_shuffled_meshes_are_held_or_refused),
         cmocka_unit_test(threads_change_nothing),
