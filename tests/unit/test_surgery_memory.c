@@ -1,4 +1,5 @@
 /* Surgery without enough memory: the operation fails, nothing has changed, nothing is left behind. */
+#include "tests/support/surgery_case.h"
 #include "tests/support/surgery_sequence.h"
 #include "tests/support/unit.h"
 
@@ -46,6 +47,36 @@ static mt_status follow_script(mt_context *context, const test_surgeon *surgeon,
     return status;
 }
 
+/* Something of every kind that follows surgery. */
+static void load(mt_context *context, mt_mesh *mesh)
+{
+    const mt_attribute_layout layouts[] = {
+        {"uv", MT_SEMANTIC_UV, MT_DOMAIN_CORNER, MT_F32, 2, mesh->vertex_count, true},
+        {"bend", MT_SEMANTIC_GENERIC, MT_DOMAIN_CORNER, MT_F64, 1, mesh->corner_count, false},
+        {"normal", MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX, MT_F32, 3, mesh->vertex_count, false},
+        {"tint", MT_SEMANTIC_COLOR, MT_DOMAIN_FACE, MT_U8, 4, mesh->face_count, false},
+    };
+    for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
+        mt_attribute *attribute = test_surgery_attribute(context, mesh, &layouts[i]);
+        for (mt_index value = 0; value < attribute->value_count; value++) {
+            for (uint32_t k = 0; k < attribute->component_count; k++) {
+                mt_attribute_set(attribute, value, k, value % 7 + k);
+            }
+        }
+        for (mt_index c = 0; attribute->indices && c < mesh->corner_count; c++) {
+            attribute->indices[c] = mesh->corner_vertices[c];
+        }
+    }
+    mt_labels *labels = NULL;
+    mt_index number;
+    assert_int_equal(mt_mesh_add_labels(context, mesh, MT_LABEL_MATERIAL, &labels), MT_OK);
+    assert_int_equal(mt_labels_add_name(context, labels, "red", &number), MT_OK);
+    mesh->creases = mt_allocate(context, sizeof *mesh->creases);
+    mesh->creases[mesh->crease_count++] = (mt_edge_value){mesh->corner_vertices[0], mesh->corner_vertices[1], 2};
+    mesh->sharp_vertices = mt_allocate(context, sizeof *mesh->sharp_vertices);
+    mesh->sharp_vertices[mesh->sharp_vertex_count++] = (mt_vertex_value){mesh->corner_vertices[0], 3};
+}
+
 static mt_status run(mt_context *context, const test_surgeon *surgeon, const mt_mesh *mesh,
                      const operation_script *script)
 {
@@ -80,6 +111,7 @@ static void every_failed_allocation_changes_nothing(void **state)
             continue;
         }
         mt_mesh *mesh = test_patient_mesh(context, patient);
+        load(context, mesh);
         operation_script script;
         write_script(&script, mesh, test_patients[patient].triangles);
         mt_status status = MT_ERROR_OUT_OF_MEMORY;
