@@ -8,6 +8,7 @@
 #include <meshtool/elementary.h>
 
 /* Each list begins with what the mesh asks for by its tags, as the library's enumerations do. */
+static const char *const schemes[] = {"catmull-clark", "loop", NULL};
 static const char *const boundaries[] = {"as-tagged", "smooth", "corners", "none", NULL};
 static const char *const crease_methods[] = {"as-tagged", "normal", "chaikin", NULL};
 static const char *const triangles[] = {"as-tagged", "normal", "smooth", NULL};
@@ -25,6 +26,14 @@ static const cli_option options[] = {
      .expects = "a whole number from 0 to 31",
      .maximum = MT_SUBDIVIDE_LEVEL_LIMIT,
      .help = "how often to refine, each level making four times the faces; 1"},
+    {.name = "scheme",
+     .offset = offsetof(cli_subdivide_settings, scheme),
+     .parse = cli_parse_choice,
+     .argument = "SCHEME",
+     .expects = "catmull-clark or loop",
+     .choices = schemes,
+     .help =
+         "catmull-clark: any faces, which become quads; loop: triangles, each of which becomes four; catmull-clark"},
     {.name = "boundary",
      .offset = offsetof(cli_subdivide_settings, boundary),
      .parse = cli_parse_choice,
@@ -152,6 +161,7 @@ static cli_exit run_on(const cli_job *job, const mt_mesh *mesh, const mt_mesh_fo
         .level_count = settings->levels,
         .no_levels = settings->levels == 0,
         .limit = settings->limit,
+        .scheme = (mt_subdivide_scheme)settings->scheme,
         .boundary = (mt_subdivide_boundary)settings->boundary,
         .crease_method = (mt_subdivide_crease_method)settings->crease_method,
         .face_varying = settings->face_varying == LINEAR_PLACE ? MT_SUBDIVIDE_FACE_VARYING_ALL
@@ -197,9 +207,10 @@ static const cli_subdivide_settings defaults = {.levels = 1};
 const cli_command cli_subdivide_command = {
     .name = "subdivide",
     .usage = "IN -o OUT [-n LEVELS]",
-    .summary = "Refine a mesh by Catmull-Clark subdivision",
+    .summary = "Refine a mesh by Catmull-Clark or Loop subdivision",
     .description =
-        "Takes faces of any number of sides and makes quads of them. Creases, corners, holes and boundaries are those "
+        "Takes faces of any number of sides and makes quads of them (--scheme loop: triangles of triangles). Creases, "
+        "corners, holes and boundaries are those "
         "of OpenSubdiv: from OBJ tags (t crease 2/1/0 A B SHARPNESS and its kin), which options beat. Colours follow "
         "the positions, texture coordinates are linear unless --uv says otherwise. A mesh that is not manifold, "
         "or whose faces are not oriented alike, is refused (exit 3); check-manifold shows where.",

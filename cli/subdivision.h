@@ -11,9 +11,9 @@ typedef struct cli_subdivide_settings {
     cli_common common;
     unsigned levels;
     bool dry_run, limit, evaluate;
-    unsigned boundary, crease_method, face_varying, triangles, non_manifold; /* places among the choices */
-    double crease_angle;                                                     /* degrees; 0: not given */
-    const char *creases;                                                     /* a file, NULL: not given */
+    unsigned scheme, boundary, crease_method, face_varying, triangles, non_manifold; /* places among the choices */
+    double crease_angle;                                                             /* degrees; 0: not given */
+    const char *creases;                                                             /* a file, NULL: not given */
 } cli_subdivide_settings;
 
 /* --dry-run: what the run would refuse, then counts, bytes and the expected time of each level. */

@@ -20,7 +20,11 @@
 #include <string.h>
 
 #define TASK "subdividing"
-#define WHO_NEEDS "Catmull-Clark needs"
+
+static const char *who_needs(mt_subdivide_scheme scheme)
+{
+    return scheme == MT_SUBDIVIDE_SCHEME_LOOP ? "Loop subdivision needs" : "Catmull-Clark needs";
+}
 
 static void release_state(mt_context *context, mt_subdivide_state *state)
 {
@@ -49,7 +53,7 @@ static mt_status check_sizes(mt_context *context, const mt_subdivide_state *stat
         const mt_subdivide_topology *topology = &state->topologies[i];
         mt_subdivide_size size = {topology->vertex_count, topology->face_count, topology->corner_count,
                                   topology->edge_count};
-        size = mt_subdivide_size_at(size, level_count);
+        size = mt_subdivide_size_at(state->settings.scheme, size, level_count);
         status = mt_subdivide_check_size(context, &size, level_count);
     }
     return status;
@@ -62,7 +66,7 @@ static mt_status check_rings(mt_context *context, const mt_mesh *mesh, const mt_
     if (status != MT_OK || count == topology->corner_count) {
         return status;
     }
-    return mt_refuse_vertex(context, mesh, WHO_NEEDS);
+    return mt_refuse_vertex(context, mesh, who_needs(topology->scheme));
 }
 
 /* Everything of level 0. */
@@ -78,6 +82,7 @@ static mt_status begin_state(mt_context *context, const mt_edge_pairs *pairs, un
     mt_status status = mt_subdivide_topology_of_mesh(context, mesh, pairs, &state->topologies[0]);
     if (status == MT_OK) {
         state->topology_count = 1;
+        state->topologies[0].scheme = state->settings.scheme;
         status = check_rings(context, mesh, &state->topologies[0]);
     }
     if (status == MT_OK && !state->cut) {
@@ -102,7 +107,7 @@ static mt_status create_result(mt_context *context, const mt_subdivide_state *st
     shell.corner_vertices = shell.face_offsets = NULL;
     shell.creases = NULL;
     shell.sharp_vertices = NULL;
-    shell.face_size = 4;
+    shell.face_size = state->settings.scheme == MT_SUBDIVIDE_SCHEME_LOOP ? 3 : 4;
     shell.welded = false;
     mt_mesh *result;
     mt_status status = mt_mesh_copy(context, &shell, &result);
@@ -111,8 +116,8 @@ static mt_status create_result(mt_context *context, const mt_subdivide_state *st
     }
     const mt_subdivide_topology *last = &state->topologies[0];
     result->vertex_count = (mt_index)mt_subdivide_child_vertex_count(last);
-    result->face_count = last->corner_count;
     result->corner_count = 4 * last->corner_count;
+    result->face_count = result->corner_count / result->face_size;
     result->positions = mt_allocate_array(context, result->vertex_count, 3 * mt_type_size(result->position_type));
     result->corner_vertices = mt_allocate_array(context, result->corner_count, sizeof(mt_index));
     status = result->positions && result->corner_vertices ? mt_subdivide_attributes_add(context, state, result)
@@ -167,7 +172,7 @@ static mt_status finish_result(mt_context *context, mt_subdivide_state *state, u
         if (!labels->face_labels) {
             return mt_context_error(context)->status;
         }
-        mt_subdivide_spread(context, mesh, true, level_count, sizeof(mt_index), mesh->label_sets[i].face_labels,
+        mt_subdivide_spread(context, state, true, level_count, sizeof(mt_index), mesh->label_sets[i].face_labels,
                             labels->face_labels);
     }
     mt_subdivide_attributes_finish(context, state, level_count, result);
@@ -194,11 +199,12 @@ static mt_status move_to_limit(mt_context *context, mt_subdivide_state *state, m
     return status;
 }
 
-/* A copy of the mesh, all of whose faces must be quads: then the limit's masks hold. */
-static mt_status copy_quads(mt_context *context, const mt_subdivide_state *state, mt_mesh **result)
+/* A copy of the mesh, whose faces must all be of the scheme: then the limit's masks hold. */
+static mt_status copy_regular(mt_context *context, const mt_subdivide_state *state, mt_mesh **result)
 {
     const mt_mesh *mesh = state->mesh;
-    if (state->topologies[0].face_size == 4 || mesh->face_count == 0) {
+    if (state->topologies[0].face_size == (state->settings.scheme == MT_SUBDIVIDE_SCHEME_LOOP ? 3 : 4) ||
+        mesh->face_count == 0) {
         return mt_mesh_copy(context, mesh, result);
     }
     mt_index face = 0;
@@ -214,7 +220,7 @@ static mt_status copy_quads(mt_context *context, const mt_subdivide_state *state
 static mt_status make_result(mt_context *context, mt_subdivide_state *state, unsigned level_count, mt_mesh **result)
 {
     if (level_count == 0) {
-        mt_status status = copy_quads(context, state, result);
+        mt_status status = copy_regular(context, state, result);
         return status == MT_OK ? move_to_limit(context, state, *result) : status;
     }
     mt_status status = refine_levels(context, state, level_count, result);
@@ -239,7 +245,7 @@ static mt_status subdivide_state(mt_context *context, const mt_edge_pairs *pairs
 {
     unsigned level_count = state->settings.no_levels ? 0 : state->settings.level_count;
     mt_mesh *result = NULL;
-    mt_status status = mt_refuse_sides(context, state->mesh, pairs, WHO_NEEDS);
+    mt_status status = mt_refuse_sides(context, state->mesh, pairs, who_needs(state->settings.scheme));
     if (status == MT_OK) {
         status = begin_state(context, pairs, level_count, state);
     }
@@ -293,11 +299,26 @@ static mt_status subdivide_cut(mt_context *context, const mt_mesh *mesh, const m
     return status;
 }
 
+static mt_status check_triangles(mt_context *context, const mt_mesh *mesh)
+{
+    for (mt_index face = 0; face < mesh->face_count; face++) {
+        mt_index sides = mt_mesh_face_end(mesh, face) - mt_mesh_face_begin(mesh, face);
+        if (sides != 3) {
+            return mt_fail(context, MT_ERROR_INVALID_MESH,
+                           "face %u has %u sides; Loop subdivision needs triangles: `meshtool convert --triangulate` "
+                           "makes them",
+                           face, sides);
+        }
+    }
+    return MT_OK;
+}
+
 /* What is too large whatever the edges are is refused before any memory is taken. */
-static mt_status check_corners(mt_context *context, const mt_mesh *mesh, unsigned level_count)
+static mt_status check_corners(mt_context *context, const mt_mesh *mesh, mt_subdivide_scheme scheme,
+                               unsigned level_count)
 {
     mt_subdivide_size size = {mesh->vertex_count, mesh->face_count, mesh->corner_count, mesh->corner_count / 2};
-    size = mt_subdivide_size_at(size, level_count);
+    size = mt_subdivide_size_at(scheme, size, level_count);
     return mt_subdivide_check_size(context, &size, level_count);
 }
 
@@ -309,8 +330,11 @@ mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdiv
         return mt_mesh_copy(context, mesh, out);
     }
     mt_status status = mt_subdivide_settle(context, mesh, options, &settings);
+    if (status == MT_OK && settings.scheme == MT_SUBDIVIDE_SCHEME_LOOP) {
+        status = check_triangles(context, mesh);
+    }
     if (status == MT_OK) {
-        status = check_corners(context, mesh, settings.no_levels ? 0 : settings.level_count);
+        status = check_corners(context, mesh, settings.scheme, settings.no_levels ? 0 : settings.level_count);
     }
     if (status != MT_OK) {
         return status;

@@ -1,6 +1,7 @@
 /* Fields back into the attributes of the refined mesh.
  * With L levels the corner k of the result comes from corner k >> 2L of the mesh, and its face q from corner
- * q >> 2(L-1): what is copied from parents needs no tables. Cost: O(values of the result). */
+ * q >> 2(L-1), with Loop's scheme from face q >> 2L: what is copied from parents needs no tables. Cost: O(values of the
+ * result). */
 #include "lib/algorithms/subdivide_field.h"
 
 #include <meshtool/vector.h>
@@ -63,8 +64,8 @@ typedef struct gather_job {
 
 typedef struct spread_job {
     const mt_mesh *mesh;
-    bool of_faces;
-    unsigned shift; /* from an old corner to its first new element */
+    bool of_corners; /* of each face; else a parent has its own children */
+    unsigned shift;  /* from an old element to its first new one */
     size_t size;
     const char *from;
     char *to;
@@ -75,7 +76,7 @@ static void spread_parents(void *user, uint64_t begin, uint64_t end)
     const spread_job *job = user;
     for (uint64_t parent = begin; parent < end; parent++) {
         uint64_t first = parent, last = parent + 1;
-        if (job->of_faces) {
+        if (job->of_corners) {
             first = mt_mesh_face_begin(job->mesh, (mt_index)parent);
             last = mt_mesh_face_end(job->mesh, (mt_index)parent);
         }
@@ -85,11 +86,13 @@ static void spread_parents(void *user, uint64_t begin, uint64_t end)
     }
 }
 
-void mt_subdivide_spread(mt_context *context, const mt_mesh *mesh, bool of_faces, unsigned level_count, size_t size,
-                         const void *from, void *to)
+void mt_subdivide_spread(mt_context *context, const mt_subdivide_state *state, bool of_faces, unsigned level_count,
+                         size_t size, const void *from, void *to)
 {
-    spread_job job = {.mesh = mesh, .of_faces = of_faces, .size = size, .from = from, .to = to};
-    job.shift = of_faces ? 2 * (level_count - 1) : 2 * level_count;
+    const mt_mesh *mesh = state->mesh;
+    spread_job job = {.mesh = mesh, .size = size, .from = from, .to = to};
+    job.of_corners = of_faces && state->settings.scheme == MT_SUBDIVIDE_SCHEME_CATMULL_CLARK;
+    job.shift = job.of_corners ? 2 * (level_count - 1) : 2 * level_count;
     mt_parallel_for(context, of_faces ? mesh->face_count : mesh->corner_count, GATHER_GRAIN, spread_parents, &job);
 }
 
@@ -100,12 +103,12 @@ static void copy_from_parents(mt_context *context, const gather_job *job, unsign
     size_t value_size = source->component_count * mt_type_size(source->type);
     bool of_faces = source->domain == MT_DOMAIN_FACE;
     if (!source->indices) {
-        mt_subdivide_spread(context, job->state->mesh, of_faces, level_count, value_size, source->values,
+        mt_subdivide_spread(context, job->state, of_faces, level_count, value_size, source->values,
                             job->target->values);
         return;
     }
     memcpy(job->target->values, source->values, source->value_count * value_size);
-    mt_subdivide_spread(context, job->state->mesh, of_faces, level_count, sizeof(mt_index), source->indices,
+    mt_subdivide_spread(context, job->state, of_faces, level_count, sizeof(mt_index), source->indices,
                         job->target->indices);
 }
 

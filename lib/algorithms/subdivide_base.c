@@ -118,7 +118,7 @@ mt_status mt_subdivide_find_vertex_corners(mt_context *context, mt_subdivide_top
     if (!corners) {
         return mt_context_error(context)->status;
     }
-    topology->owned[3] = corners;
+    topology->owned[5] = corners;
     topology->vertex_corners = corners;
     topology->vertex_corner_shift = 0;
     topology->vertex_corner_count = topology->vertex_count;
@@ -220,6 +220,7 @@ mt_status mt_subdivide_topology_of_values(mt_context *context, const mt_subdivid
     *topology = (mt_subdivide_topology){.vertex_count = attribute->value_count,
                                         .face_count = base->face_count,
                                         .corner_count = base->corner_count,
+                                        .scheme = base->scheme,
                                         .face_size = base->face_size,
                                         .face_offsets = base->face_offsets,
                                         .corner_faces = base->corner_faces};

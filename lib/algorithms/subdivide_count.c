@@ -12,12 +12,13 @@ static uint64_t clamp(uint64_t count)
     return count < SIZE_CLAMP ? count : SIZE_CLAMP;
 }
 
-mt_subdivide_size mt_subdivide_size_at(mt_subdivide_size size, unsigned level)
+mt_subdivide_size mt_subdivide_size_at(mt_subdivide_scheme scheme, mt_subdivide_size size, unsigned level)
 {
+    bool triangles = scheme == MT_SUBDIVIDE_SCHEME_LOOP;
     for (unsigned i = 0; i < level; i++) {
-        uint64_t vertices = clamp(clamp(size.vertices + size.faces) + size.edges);
+        uint64_t vertices = clamp(clamp(size.vertices + (triangles ? 0 : size.faces)) + size.edges);
         uint64_t edges = clamp(clamp(2 * size.edges) + size.corners);
-        size.faces = size.corners;
+        size.faces = triangles ? clamp(4 * size.faces) : size.corners;
         size.corners = size.corners >= SIZE_CLAMP / 4 ? SIZE_CLAMP : 4 * size.corners;
         size.vertices = vertices;
         size.edges = edges;
@@ -42,6 +43,7 @@ mt_status mt_subdivide_check_size(mt_context *context, const mt_subdivide_size *
 typedef struct count_job {
     const mt_mesh *mesh;
     const mt_edge_pairs *pairs;
+    mt_subdivide_scheme scheme;
     bool smooth_values; /* corner attributes are not linear */
     unsigned level;
     mt_subdivide_size size; /* at the level */
@@ -107,7 +109,7 @@ static mt_status value_count(mt_context *context, const count_job *job, const mt
         values.edges = (uint64_t)job->pairs->edge_count +
                        mt_subdivide_seam_count(job->mesh, job->pairs, attribute, job->smooth_values);
     }
-    *count = mt_subdivide_size_at(values, job->level).vertices;
+    *count = mt_subdivide_size_at(job->scheme, values, job->level).vertices;
     return status;
 }
 
@@ -137,7 +139,7 @@ static mt_status add_attribute_bytes(mt_context *context, const count_job *job, 
 
 /* Without the holes: faces, corners and edges as of a mesh of the other faces. */
 static void leave_out_holes(const mt_mesh *mesh, const mt_edge_pairs *pairs, const uint8_t *holes, unsigned level,
-                            mt_subdivide_size *size)
+                            mt_subdivide_scheme scheme, mt_subdivide_size *size)
 {
     mt_subdivide_size kept = {0};
     for (mt_index face = 0; face < mesh->face_count; face++) {
@@ -149,7 +151,7 @@ static void leave_out_holes(const mt_mesh *mesh, const mt_edge_pairs *pairs, con
             kept.edges += !other;
         }
     }
-    kept = mt_subdivide_size_at(kept, level);
+    kept = mt_subdivide_size_at(scheme, kept, level);
     size->faces = kept.faces;
     size->corners = kept.corners;
     size->edges = kept.edges;
@@ -179,7 +181,9 @@ mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_
 {
     mt_subdivide_options settings;
     mt_subdivide_size size = {mesh->vertex_count, mesh->face_count, mesh->corner_count, pairs->edge_count};
-    count_job job = {.mesh = mesh, .pairs = pairs, .level = level, .size = mt_subdivide_size_at(size, level)};
+    count_job job = {.mesh = mesh, .pairs = pairs, .level = level};
+    job.scheme = options ? options->scheme : MT_SUBDIVIDE_SCHEME_CATMULL_CLARK;
+    job.size = mt_subdivide_size_at(job.scheme, size, level);
     uint8_t *holes = NULL;
     size = job.size;
     *out = (mt_subdivide_counts){size.vertices, size.faces, size.corners, size.edges, 0};
@@ -188,7 +192,7 @@ mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_
         status = mt_subdivide_holes(context, mesh, pairs, &settings, &holes);
     }
     if (holes) {
-        leave_out_holes(mesh, pairs, holes, level, &job.size);
+        leave_out_holes(mesh, pairs, holes, level, job.scheme, &job.size);
     }
     if (status == MT_OK) {
         job.smooth_values = settings.face_varying != MT_SUBDIVIDE_FACE_VARYING_ALL;

@@ -9,7 +9,7 @@ typedef struct mt_subdivide_size {
 } mt_subdivide_size;
 
 /* The size after `level` levels; every field is clamped to 2^62 where it would pass that. */
-mt_subdivide_size mt_subdivide_size_at(mt_subdivide_size size, unsigned level);
+mt_subdivide_size mt_subdivide_size_at(mt_subdivide_scheme scheme, mt_subdivide_size size, unsigned level);
 
 /* MT_ERROR_TOO_LARGE unless each count fits an index. */
 mt_status mt_subdivide_check_size(mt_context *context, const mt_subdivide_size *size, unsigned level);

@@ -41,7 +41,7 @@ static bool add_join(mt_context *context, mt_subdivide_cut *cut, mt_index vertex
 static bool join_points(mt_context *context, const mt_subdivide_topology *topology, mt_subdivide_cut *cut,
                         mt_index *lowest)
 {
-    mt_index base = topology->vertex_count + topology->face_count;
+    mt_index base = mt_subdivide_first_edge_point(topology);
     for (mt_index edge = 0; edge < cut->edge_count; edge++) {
         lowest[edge] = MT_NONE;
     }
@@ -73,7 +73,8 @@ mt_status mt_subdivide_cut_refine(mt_context *context, const mt_subdivide_topolo
         mt_index next = mt_subdivide_next(topology, old->side, topology->face_size);
         mt_index first = 2 * old->edge + old->flipped;
         halves[2 * (size_t)i] = (mt_cut_side){4 * old->side, first, old->flipped};
-        halves[2 * (size_t)i + 1] = (mt_cut_side){4 * next + 3, first ^ 1, old->flipped};
+        halves[2 * (size_t)i + 1] =
+            (mt_cut_side){mt_subdivide_child_previous(topology, 4 * next), first ^ 1, old->flipped};
     }
     mt_free(context, cut->sides);
     cut->sides = halves;

@@ -49,8 +49,8 @@ void mt_subdivide_attributes_finish(mt_context *context, const mt_subdivide_stat
                                     mt_mesh *result);
 
 /* Copies to each new face or corner of level_count levels (at least 1) the `size` bytes of the old one. */
-void mt_subdivide_spread(mt_context *context, const mt_mesh *mesh, bool of_faces, unsigned level_count, size_t size,
-                         const void *from, void *to);
+void mt_subdivide_spread(mt_context *context, const mt_subdivide_state *state, bool of_faces, unsigned level_count,
+                         size_t size, const void *from, void *to);
 
 /* How the mesh's attributes are treated. */
 typedef enum mt_subdivide_carriage {

@@ -107,7 +107,7 @@ static mt_status plan_field(mt_context *context, const mt_subdivide_state *state
     if (field->rule == MT_SUBDIVIDE_SMOOTH || field->rule == MT_SUBDIVIDE_SMOOTH_BUT_BOUNDARY) {
         mt_subdivide_loop values = {.topology = topology, .source = field->values, .target = target};
         values.stride = field->component_count;
-        if (topology->level == 0 && topology->face_size != 4 &&
+        if (topology->level == 0 && topology->scheme == MT_SUBDIVIDE_SCHEME_CATMULL_CLARK && topology->face_size != 4 &&
             state->settings.triangles == MT_SUBDIVIDE_TRIANGLES_SMOOTH) {
             mt_subdivide_triangles_plan(topology, field->type, field->component_count, field->values, target,
                                         &plan->second);
@@ -153,6 +153,11 @@ static mt_status plan_topology(mt_context *context, const mt_subdivide_state *st
                                const mt_mesh *result, level_plan *plan)
 {
     mt_subdivide_topology *topology = &state->topologies[number], *child = &plan->children[number];
+    bool walked = number == 0 || state->value_rules[number].smooth;
+    if (walked && topology->scheme == MT_SUBDIVIDE_SCHEME_LOOP && topology->level > 0 &&
+        mt_subdivide_find_vertex_corners(context, topology) != MT_OK) {
+        return mt_context_error(context)->status;
+    }
     mt_index *corners = result ? last_corners_of(state, number, result)
                                : mt_allocate_array(context, 4 * (uint64_t)topology->corner_count, sizeof *corners);
     if (!corners) {

@@ -103,8 +103,9 @@ static void limit_sharp_rings(limit_job *job)
     }
 }
 
-/* On vertices as long as each has one normal, else on corners. */
-static mt_status add_normals(mt_context *context, const limit_job *job, mt_mesh *result, mt_attribute **normals)
+/* On vertices as long as each has one normal, else on corners; so too when vertices will be joined. */
+static mt_status add_normals(mt_context *context, const limit_job *job, bool joined, mt_mesh *result,
+                             mt_attribute **normals)
 {
     for (mt_index i = result->attribute_count; i-- > 0;) {
         const mt_attribute *attribute = &result->attributes[i];
@@ -113,22 +114,23 @@ static mt_status add_normals(mt_context *context, const limit_job *job, mt_mesh 
         }
     }
     mt_index extra = mt_limit_rings_extra_sectors(&job->rings);
+    bool on_corners = joined || extra > 0;
     mt_attribute_layout layout = {.semantic = MT_SEMANTIC_NORMAL,
-                                  .domain = extra ? MT_DOMAIN_CORNER : MT_DOMAIN_VERTEX,
+                                  .domain = on_corners ? MT_DOMAIN_CORNER : MT_DOMAIN_VERTEX,
                                   .type = result->position_type,
                                   .component_count = 3,
                                   .value_count = (uint64_t)result->vertex_count + extra,
-                                  .indexed = extra > 0};
+                                  .indexed = on_corners};
     mt_status status = mt_mesh_add_attribute(context, result, &layout, normals);
-    if (status == MT_OK && extra) {
+    if (status == MT_OK && on_corners) {
         memcpy((*normals)->indices, result->corner_vertices, result->corner_count * sizeof(mt_index));
     }
     return status;
 }
 
-static mt_status move_to_limit(mt_context *context, limit_job *job, mt_mesh *result)
+static mt_status move_to_limit(mt_context *context, limit_job *job, bool joined, mt_mesh *result)
 {
-    mt_status status = add_normals(context, job, result, &job->normals);
+    mt_status status = add_normals(context, job, joined, result, &job->normals);
     if (status != MT_OK) {
         return status;
     }
@@ -161,7 +163,7 @@ mt_status mt_subdivide_to_limit(mt_context *context, mt_subdivide_state *state, 
         status = mt_limit_rings_create(context, &job.rings);
     }
     if (status == MT_OK) {
-        status = move_to_limit(context, &job, result);
+        status = move_to_limit(context, &job, state->cut != NULL, result);
         mt_limit_rings_release(context, &job.rings);
     }
     mt_subdivide_patches_release(context, &patches);

@@ -67,14 +67,19 @@ static mt_index step(const mt_limit_ring *ring, mt_index spoke, mt_index count)
     return ring->closed ? (mt_index)(((uint64_t)spoke + count) % ring->face_count) : spoke + count;
 }
 
-/* The area vectors of a sector's faces: of the triangles at the center, or with `whole` of the quads. */
-static mt_vec3 area_vector(const mt_limit_ring *ring, mt_limit_sector sector, bool whole)
+static double longest(const mt_limit_ring *ring)
 {
     double largest = 0;
     for (mt_index i = 0; i < mt_limit_spoke_count(ring); i++) {
         largest = fmax(largest, mt_vec3_max_abs(ring->ends[i]));
     }
-    double scale = mt_power_of_two_scale(largest);
+    return largest;
+}
+
+/* The area vectors of a sector's faces: of the triangles at the center, or with `whole` of the quads. */
+static mt_vec3 area_vector(const mt_limit_ring *ring, mt_limit_sector sector, bool whole)
+{
+    double scale = mt_power_of_two_scale(longest(ring));
     vector_sum sum = {{0, 0}, {0, 0}, {0, 0}};
     for (mt_index i = 0; i < sector.face_count; i++) {
         mt_index face = step(ring, sector.first, i);
@@ -128,16 +133,24 @@ void mt_limit_smooth_tangents(const mt_limit_ring *ring, mt_index first, mt_vec3
     *across = value(&sums[1]);
 }
 
-static mt_vec3 cross_of_units(mt_vec3 a, mt_vec3 b)
+/* A tangent this much shorter than the spokes is what roundings left of none. Larger, and normals of thin rings are
+ * lost; smaller, and those of folded rings point anywhere. */
+#define TANGENT_IS_NONE 1e-13
+
+static mt_vec3 normal_of(const mt_limit_ring *ring, mt_vec3 along, mt_vec3 across)
 {
-    return mt_vec3_cross(mt_vec3_normalize(a), mt_vec3_normalize(b));
+    double least = TANGENT_IS_NONE * longest(ring);
+    if (!(mt_vec3_max_abs(along) > least && mt_vec3_max_abs(across) > least)) {
+        return mt_vec3_make(0, 0, 0);
+    }
+    return mt_vec3_cross(mt_vec3_normalize(along), mt_vec3_normalize(across));
 }
 
 static mt_vec3 smooth_normal(const mt_limit_ring *ring)
 {
     mt_vec3 along, across;
     mt_limit_smooth_tangents(ring, 0, &along, &across);
-    return cross_of_units(along, across);
+    return normal_of(ring, along, across);
 }
 
 /* The tangent into a crease's sector of at least two faces, up to a factor. */
@@ -166,7 +179,7 @@ static mt_vec3 crease_normal(const mt_limit_ring *ring, mt_limit_sector sector)
 {
     mt_vec3 a = ring->ends[sector.first], b = ring->ends[step(ring, sector.first, sector.face_count)];
     mt_vec3 across = sector.face_count == 1 ? mt_vec3_add(a, b) : tangent_across(ring, sector);
-    return cross_of_units(mt_vec3_subtract(a, b), across);
+    return normal_of(ring, mt_vec3_subtract(a, b), across);
 }
 
 mt_vec3 mt_limit_normal(const mt_limit_ring *ring, mt_subdivide_vertex_rule rule, mt_limit_sector sector)

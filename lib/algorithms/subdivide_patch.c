@@ -53,7 +53,7 @@ MT_SUBDIVIDE_INLINE void patch_edge(const mt_subdivide_loop *loop, const mt_edge
     }
     mt_index a = topology->corner_vertices[patch->side];
     mt_index b = topology->corner_vertices[mt_subdivide_next(topology, patch->side, sides)];
-    mt_index target = topology->vertex_count + topology->face_count + mt_subdivide_edge(topology, patch->side, sides);
+    mt_index target = mt_subdivide_first_edge_point(topology) + mt_subdivide_edge(topology, patch->side, sides);
     double weight = (double)patch->weight;
     for (size_t k = 0; k < loop->stride; k++) {
         double middle = (get(loop, loop->source, a, k, wide) + get(loop, loop->source, b, k, wide)) * 0.5;

@@ -1,8 +1,8 @@
 /* Sharpness from level to level.
  *
  * Source: DeRose, Kass and Truong (1998); the rules are in subdivide_rule.c. The halves of side c are the sides 4c and
- * 4 next(c) + 3, and keep its direction: end 0 of the first is end 0 of c, end 1 of the second is end 1.
- * Cost: O(sharp edges and vertices) a level. */
+ * the one before 4 next(c) in its face, and keep its direction: end 0 of the first is end 0 of c, end 1 of the second
+ * is end 1. Cost: O(sharp edges and vertices) a level. */
 #include "lib/algorithms/subdivide_sharp.h"
 
 #include <string.h>
@@ -155,7 +155,7 @@ static void refine_edges(const mt_subdivide_topology *topology, const mt_subdivi
 {
     for (mt_index edge = 0; edge < sharp->edge_count; edge++) {
         mt_index side = sharp->edges[edge].side;
-        const mt_index sides[2] = {4 * side, 4 * next_corner(topology, side) + 3};
+        const mt_index sides[2] = {4 * side, mt_subdivide_child_previous(topology, 4 * next_corner(topology, side))};
         for (unsigned end = 0; end < 2; end++) {
             float sharpness = halves[2 * edge + end];
             images[2 * edge + end] = sharpness > 0 ? next->edge_count : MT_NONE;
@@ -176,8 +176,8 @@ static bool add_vertex(mt_subdivide_sharp *next, mt_sharp_vertex vertex, mt_inde
     return true;
 }
 
-static void refine_vertices(const mt_subdivide_sharp *sharp, const mt_index *half_images, mt_subdivide_sharp *next,
-                            mt_index *vertex_images)
+static void refine_vertices(const mt_subdivide_topology *topology, const mt_subdivide_sharp *sharp,
+                            const mt_index *half_images, mt_subdivide_sharp *next, mt_index *vertex_images)
 {
     mt_index used = 0;
     for (mt_index number = 0; number < sharp->vertex_count; number++) {
@@ -192,7 +192,8 @@ static void refine_vertices(const mt_subdivide_sharp *sharp, const mt_index *hal
         vertex_images[number] = add_vertex(next, vertex, &used) ? next->vertex_count - 1 : MT_NONE;
     }
     for (mt_index edge = 0; edge < sharp->edge_count; edge++) {
-        mt_sharp_vertex vertex = {4 * sharp->edges[edge].side + 1, used, 0, false};
+        mt_index point = mt_subdivide_child_next(topology, 4 * sharp->edges[edge].side);
+        mt_sharp_vertex vertex = {point, used, 0, false};
         for (unsigned end = 0; end < 2 && !sharp->edges[edge].boundary; end++) {
             mt_index image = half_images[2 * edge + end];
             if (image != MT_NONE) {
@@ -219,7 +220,7 @@ mt_status mt_subdivide_sharp_refine(mt_context *context, const mt_subdivide_topo
     bool complete = next->edges && next->spokes && next->vertices && half_images && *vertex_images;
     if (complete) {
         refine_edges(topology, sharp, patches->halves, next, half_images);
-        refine_vertices(sharp, half_images, next, *vertex_images);
+        refine_vertices(topology, sharp, half_images, next, *vertex_images);
     } else {
         mt_subdivide_sharp_release(context, next);
         mt_free(context, *vertex_images);

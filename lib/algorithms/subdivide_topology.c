@@ -8,7 +8,7 @@
  * its first corner c, at 4c and 4n+3: numbers of the next level follow from those of this one without a search.
  *
  * Cost: O(corners); 8 bytes read and 36 written a corner, 16 on the last level. */
-#include "lib/algorithms/subdivide_pass.h"
+#include "lib/algorithms/subdivide_loop.h"
 
 #include <string.h>
 
@@ -81,7 +81,7 @@ static void keep_old_vertices(void *user, uint64_t begin, uint64_t end)
 static bool continue_vertex_corners(mt_context *context, mt_subdivide_topology *parent, mt_subdivide_loop *loop,
                                     mt_subdivide_topology *child)
 {
-    if (!parent->vertex_corners) {
+    if (!parent->vertex_corners || parent->scheme == MT_SUBDIVIDE_SCHEME_LOOP) {
         return true;
     }
     child->vertex_corner_count = parent->vertex_corner_count;
@@ -117,19 +117,23 @@ mt_status mt_subdivide_topology_plan(mt_context *context, mt_subdivide_topology 
     static const mt_parallel_body loops[][2] = {[0] = {refine_polygons, refine_polygons_last},
                                                 [3] = {refine_triangles, refine_triangles_last},
                                                 [4] = {refine_quads, refine_quads_last}};
+    static const mt_parallel_body loops_of_triangles[] = {mt_subdivide_loop_refine, mt_subdivide_loop_refine_last};
+    bool triangles = parent->scheme == MT_SUBDIVIDE_SCHEME_LOOP;
     mt_subdivide_loop loop = {.topology = parent, .child_vertices = corner_vertices};
     *child = (mt_subdivide_topology){.vertex_count = (mt_index)mt_subdivide_child_vertex_count(parent),
-                                     .face_count = parent->corner_count,
+                                     .face_count = triangles ? 4 * parent->face_count : parent->corner_count,
                                      .corner_count = 4 * parent->corner_count,
                                      .edge_count = 2 * parent->edge_count + parent->corner_count,
+                                     .scheme = parent->scheme,
                                      .level = parent->level + 1,
-                                     .face_size = 4,
+                                     .face_size = triangles ? 3 : 4,
                                      .corner_vertices = corner_vertices};
     if (!last && !allocate_links(context, parent, &loop, child)) {
         mt_subdivide_topology_release(context, child);
         return mt_context_error(context)->status;
     }
-    mt_subdivide_pass_add(pass, &loop, loops[parent->face_size][last], parent->face_count);
+    mt_subdivide_pass_add(pass, &loop, triangles ? loops_of_triangles[last] : loops[parent->face_size][last],
+                          parent->face_count);
     if (loop.child_vertex_corners) {
         mt_subdivide_pass_add(pass, &loop, keep_old_vertices, parent->vertex_count);
     }

@@ -7,7 +7,7 @@
 #ifndef LIB_ALGORITHMS_SUBDIVIDE_TOPOLOGY_H
 #define LIB_ALGORITHMS_SUBDIVIDE_TOPOLOGY_H
 
-#include <meshtool/edge_pairs.h>
+#include <meshtool/subdivide.h>
 
 #define MT_SUBDIVIDE_INLINE static inline __attribute__((always_inline))
 
@@ -19,6 +19,7 @@
 
 typedef struct mt_subdivide_topology {
     mt_index vertex_count, face_count, corner_count, edge_count;
+    mt_subdivide_scheme scheme;
     unsigned level;
     unsigned face_size; /* sides of every face: 3, 4; 0: of any number */
     const mt_index *corner_vertices;
@@ -48,7 +49,7 @@ mt_status mt_subdivide_topology_of_mesh(mt_context *context, const mt_mesh *mesh
 mt_status mt_subdivide_topology_of_values(mt_context *context, const mt_subdivide_topology *base,
                                           const mt_attribute *attribute, mt_subdivide_topology *topology);
 
-/* Finds vertex_corners of all vertices, of a level that can be walked and does not own its corners. */
+/* Finds vertex_corners of all vertices, of a level that can be walked. */
 mt_status mt_subdivide_find_vertex_corners(mt_context *context, mt_subdivide_topology *topology);
 
 /* Edges of the mesh that a corner attribute splits in two; `missing_is_one`: corners without a value have the same one.
@@ -89,10 +90,35 @@ mt_status mt_subdivide_topology_plan(mt_context *context, mt_subdivide_topology 
 
 void mt_subdivide_topology_release(mt_context *context, mt_subdivide_topology *topology);
 
-/* Vertices of the next level: the old ones, face points, edge points. */
+/* Vertices of the next level: the old ones, face points (Loop's scheme has none), edge points. */
+static inline mt_index mt_subdivide_face_point_count(const mt_subdivide_topology *topology)
+{
+    return topology->scheme == MT_SUBDIVIDE_SCHEME_LOOP ? 0 : topology->face_count;
+}
+
+static inline mt_index mt_subdivide_first_edge_point(const mt_subdivide_topology *topology)
+{
+    return topology->vertex_count + mt_subdivide_face_point_count(topology);
+}
+
 static inline uint64_t mt_subdivide_child_vertex_count(const mt_subdivide_topology *topology)
 {
-    return (uint64_t)topology->vertex_count + topology->face_count + topology->edge_count;
+    return (uint64_t)topology->vertex_count + mt_subdivide_face_point_count(topology) + topology->edge_count;
+}
+
+/* Corners of the next level around a corner of it, in its face. */
+static inline mt_index mt_subdivide_child_next(const mt_subdivide_topology *topology, mt_index child)
+{
+    if (topology->scheme == MT_SUBDIVIDE_SCHEME_LOOP) {
+        return child % 3 == 2 ? child - 2 : child + 1;
+    }
+    return (child & ~3u) | ((child + 1) & 3u);
+}
+
+static inline mt_index mt_subdivide_child_previous(const mt_subdivide_topology *topology, mt_index child)
+{
+    return mt_subdivide_child_next(
+        topology, topology->scheme == MT_SUBDIVIDE_SCHEME_LOOP ? mt_subdivide_child_next(topology, child) : child ^ 2u);
 }
 
 /* In all below `sides` is a constant of the caller, 3 or 4 or 0 for face_offsets, so that each loop is compiled for

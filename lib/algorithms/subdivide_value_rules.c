@@ -121,7 +121,7 @@ static void refine_fading(const mt_subdivide_topology *topology, const mt_subdiv
     }
 }
 
-/* New sharp vertices are edge points, each at corner 4c + 1 of a side c. */
+/* New sharp vertices are edge points, each at the corner after 4c of a side c. */
 static void refine_apart(const mt_subdivide_topology *topology, const mt_subdivide_sharp *sharp,
                          const mt_value_rules *rules, const mt_subdivide_sharp *next_sharp,
                          const mt_index *vertex_images, mt_value_rules *next)
@@ -133,7 +133,7 @@ static void refine_apart(const mt_subdivide_topology *topology, const mt_subdivi
         }
     }
     for (mt_index vertex = kept; vertex < next_sharp->vertex_count; vertex++) {
-        mt_index side = next_sharp->vertices[vertex].corner >> 2;
+        mt_index half = mt_subdivide_child_previous(topology, next_sharp->vertices[vertex].corner), side = half >> 2;
         next->apart[vertex] = topology->twins[side] == side;
     }
 }

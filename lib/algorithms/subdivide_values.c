@@ -2,6 +2,7 @@
  * (subdivide_masks.h), and which of them a field takes. */
 #include "lib/algorithms/subdivide_values.h"
 
+#include "lib/algorithms/subdivide_loop.h"
 #include "lib/algorithms/subdivide_masks.h"
 
 #include <string.h>
@@ -89,12 +90,15 @@ static void copy_origins(void *user, uint64_t begin, uint64_t end)
     const mt_index *source = loop->source;
     mt_index *target = loop->target;
     unsigned sides = topology->face_size;
-    mt_index edge_base = topology->vertex_count + topology->face_count;
+    mt_index edge_base = mt_subdivide_first_edge_point(topology);
+    bool face_points = mt_subdivide_face_point_count(topology) > 0;
     for (mt_index face = (mt_index)begin; face < end; face++) {
         mt_index first = mt_subdivide_face_begin(topology, face, sides);
         mt_index last = mt_subdivide_face_begin(topology, face + 1, sides);
         mt_index rank = mt_subdivide_face_rank(topology, face, sides);
-        target[topology->vertex_count + face] = source[topology->corner_vertices[first]];
+        if (face_points) {
+            target[topology->vertex_count + face] = source[topology->corner_vertices[first]];
+        }
         for (mt_index corner = first; corner < last; corner++) {
             if (mt_subdivide_is_first(topology, corner)) {
                 target[edge_base + rank++] = source[topology->corner_vertices[corner]];
@@ -109,6 +113,10 @@ static void plan_rules(mt_subdivide_loop loop, bool wide, uint32_t width, mt_sub
 {
     const mt_subdivide_topology *topology = loop.topology;
     unsigned sides = topology->face_size;
+    if (topology->scheme == MT_SUBDIVIDE_SCHEME_LOOP) {
+        mt_subdivide_loop_rules(&loop, wide, second);
+        return;
+    }
     mt_subdivide_pass_add(first, &loop, face_loops[sides][wide][width - 1], topology->face_count);
     mt_subdivide_pass_add(second, &loop, edge_loops[sides][wide][width - 1], topology->face_count);
     if (!loop.linear) {

@@ -81,8 +81,10 @@ inline std::vector<int> channel_of(const mt_mesh *mesh)
 class Reference
 {
   public:
-    Reference(const mt_mesh *mesh, const SdcOptions &options, unsigned levels)
-        : indices(mesh->corner_vertices, mesh->corner_vertices + mesh->corner_count), uv_indices(channel_of(mesh))
+    Reference(const mt_mesh *mesh, const SdcOptions &options, unsigned levels,
+              OpenSubdiv::Sdc::SchemeType type = OpenSubdiv::Sdc::SCHEME_CATMARK)
+        : scheme(type), indices(mesh->corner_vertices, mesh->corner_vertices + mesh->corner_count),
+          uv_indices(channel_of(mesh))
     {
         describe(mesh, options);
         if (!refiner) {
@@ -104,6 +106,7 @@ class Reference
         return *refiner;
     }
 
+    OpenSubdiv::Sdc::SchemeType scheme;
     std::vector<Values> positions, uvs; // per level
     std::vector<int> indices, uv_indices;
 
@@ -143,7 +146,7 @@ class Reference
             descriptor.fvarChannels = &channel;
         }
         using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-        Factory::Options how(OpenSubdiv::Sdc::SCHEME_CATMARK, options);
+        Factory::Options how(scheme, options);
         refiner.reset(Factory::Create(descriptor, how));
     }
 
@@ -253,6 +256,31 @@ inline Match next_match(const Far::TopologyRefiner &refiner, int level, const mt
     return next;
 }
 
+// The same of Loop's triangles: 4f .. 4f + 2 at the corners of f, and 4f + 3 between them.
+inline Match next_match_of_triangles(const Far::TopologyRefiner &refiner, int level, const mt_mesh *parent,
+                                     const Match &match, const mt_mesh *child)
+{
+    const Far::TopologyLevel &from = refiner.GetLevel(level - 1), &to = refiner.GetLevel(level);
+    Match next;
+    next.vertices.assign(child->vertex_count, -1);
+    for (mt_index v = 0; v < parent->vertex_count; v++) {
+        next.vertices[v] = from.GetVertexChildVertex(match.vertices[v]);
+    }
+    for (mt_index f = 0; f < parent->face_count; f++) {
+        auto [face, turn] = match.faces[f];
+        for (int i = 0; i < 3; i++) {
+            next.vertices[child->corner_vertices[12 * std::size_t(f) + 9 + std::size_t(i)]] =
+                from.GetEdgeChildVertex(from.GetFaceEdges(face)[(turn + i) % 3]);
+        }
+        for (int i = 0; i < 4; i++) {
+            int child_face = from.GetFaceChildFaces(face)[i < 3 ? (turn + i) % 3 : 3];
+            mt_index first = child->corner_vertices[12 * std::size_t(f) + 3 * std::size_t(i)];
+            next.faces.emplace_back(child_face, to.GetFaceVertices(child_face).FindIndex(next.vertices[first]));
+        }
+    }
+    return next;
+}
+
 inline double distance(const Value &a, const Value &b)
 {
     return std::max({std::abs(a.x[0] - b.x[0]), std::abs(a.x[1] - b.x[1]), std::abs(a.x[2] - b.x[2])});
@@ -297,9 +325,11 @@ inline Difference difference_at(const Reference &reference, int level, const mt_
         return result;
     }
     for (mt_index corner = 0; corner < ours->corner_count; corner++) {
-        auto [face, turn] = match.faces[corner / 4];
+        auto sides = int(ours->face_size);
+        auto [face, turn] = match.faces[corner / ours->face_size];
         Far::ConstIndexArray values = topology.GetFaceFVarValues(face, 0);
-        const Value &value = reference.uvs[std::size_t(level)][std::size_t(values[(turn + int(corner % 4)) % 4])];
+        const Value &value =
+            reference.uvs[std::size_t(level)][std::size_t(values[(turn + int(corner) % sides) % sides])];
         mt_index index = mt_attribute_value_index(uv, corner);
         Value mine = {{mt_attribute_get(uv, index, 0), mt_attribute_get(uv, index, 1), 0}};
         result.uv = std::max(result.uv, distance(mine, value));

@@ -91,6 +91,9 @@ class Limit
 
     bool has_normal(int vertex) const
     {
+        if (level.IsVertexNonManifold(vertex)) {
+            return false;
+        }
         switch (level.GetVertexRule(vertex)) {
         case Rule::RULE_SMOOTH:
             return true;
@@ -126,14 +129,15 @@ class Limit
     // Of the normals around a vertex (one for each side of a crease, of which Far knows one) the nearest to Far's.
     double nearest(const std::vector<mt_vec3> &normals, int vertex) const
     {
-        mt_vec3 u = mt_vec3_normalize(vector(along[std::size_t(vertex)]));
-        mt_vec3 v = mt_vec3_normalize(vector(across[std::size_t(vertex)]));
+        mt_vec3 u = vector(along[std::size_t(vertex)]), v = vector(across[std::size_t(vertex)]);
         mt_vec3 cross = mt_vec3_cross(u, v), theirs = mt_vec3_normalize(cross);
+        double longer = std::max(mt_vec3_length(u), mt_vec3_length(v));
         double best = INFINITY;
         for (mt_vec3 normal : normals) {
             best = std::min(best, mt_vec3_max_abs(mt_vec3_subtract(normal, theirs)));
         }
-        return best * mt_vec3_length(cross); // roundings weigh more where the tangents are nearly one
+        // Roundings weigh more where the tangents are nearly one, or one is nearly none.
+        return longer > 0 ? best * (mt_vec3_length(cross) / (longer * longer)) : 0;
     }
 
     const Far::TopologyRefiner &refiner;

@@ -120,7 +120,9 @@ void compare_limit(mt_context *context, const std::string &name, const mt_mesh *
 void compare(mt_context *context, const std::string &name, const mt_mesh *mesh, mt_subdivide_options options,
              unsigned levels, double tolerance)
 {
-    osd::Reference reference(mesh, osd::sdc_options(options), levels);
+    bool triangles = options.scheme == MT_SUBDIVIDE_SCHEME_LOOP;
+    osd::Reference reference(mesh, osd::sdc_options(options), levels,
+                             triangles ? OpenSubdiv::Sdc::SCHEME_LOOP : OpenSubdiv::Sdc::SCHEME_CATMARK);
     if (!reference.works()) {
         std::printf("skipped %s: OpenSubdiv refuses it\n", name.c_str());
         return;
@@ -139,7 +141,8 @@ void compare(mt_context *context, const std::string &name, const mt_mesh *mesh, 
             mt_context_clear_error(context);
             break;
         }
-        match = osd::next_match(reference.topology(), int(level), before ? before : mesh, match, refined);
+        auto next_match = triangles ? osd::next_match_of_triangles : osd::next_match;
+        match = next_match(reference.topology(), int(level), before ? before : mesh, match, refined);
         osd::Difference difference = osd::difference_at(reference, int(level), refined, match);
         std::string label = name + ", level " + std::to_string(level);
         tally.expect(difference.position <= tolerance,
@@ -151,7 +154,7 @@ void compare(mt_context *context, const std::string &name, const mt_mesh *mesh, 
         mt_mesh_destroy(context, before);
         before = refined;
     }
-    if (before && options.level_count == levels) {
+    if (before && options.level_count == levels && !triangles) {
         compare_limit(context, name + ", limit", mesh, options, reference, match, tolerance);
     }
     mt_mesh_destroy(context, before);
@@ -480,6 +483,44 @@ void compare_boundaries(mt_context *context)
     }
 }
 
+// A grid cut into triangles, along either diagonal.
+Cage triangles(Random &random, mt_index columns, mt_index rows, bool closed)
+{
+    Cage cage = grid(random, columns, rows, closed);
+    std::vector<std::vector<mt_index>> faces;
+    for (const auto &face : cage.faces) {
+        for (std::size_t i = 1; i + 1 < face.size(); i++) {
+            faces.push_back({face[0], face[i], face[i + 1]});
+        }
+    }
+    cage.faces = faces;
+    cage.options.scheme = MT_SUBDIVIDE_SCHEME_LOOP;
+    return cage;
+}
+
+void compare_loop(mt_context *context)
+{
+    Random random(9);
+    for (int i = 0; i < 16; i++) {
+        Cage cage = triangles(random, 5, 4, i % 2 == 0);
+        cage.options.boundary = i % 3 ? MT_SUBDIVIDE_BOUNDARY_SMOOTH : MT_SUBDIVIDE_BOUNDARY_CORNERS;
+        cage.options.crease_method = i % 4 < 2 ? MT_SUBDIVIDE_CREASES_NORMAL : MT_SUBDIVIDE_CREASES_CHAIKIN;
+        cage.options.face_varying = static_cast<mt_subdivide_face_varying>(1 + i % 6);
+        compare(context, "Loop, triangles " + std::to_string(i), cage);
+        map_in_charts(cage, 5);
+        compare(context, "Loop, UVs " + std::to_string(i), cage);
+        sharpen(random, cage, 0.2, sharpnesses);
+        compare(context, "Loop, UVs and creases " + std::to_string(i), cage);
+    }
+    for (mt_index valence : {3, 4, 5, 6, 7, 12, 50, 1000}) {
+        for (bool closed : {true, false}) {
+            Cage cage = fan(random, valence, closed);
+            cage.options.scheme = MT_SUBDIVIDE_SCHEME_LOOP;
+            compare(context, "Loop, hub of " + std::to_string(valence), cage, valence > 100 ? 2 : 4);
+        }
+    }
+}
+
 } // namespace
 
 int main()
@@ -494,6 +535,7 @@ int main()
     compare_triangles(context);
     compare_non_manifold(context);
     compare_face_varying(context);
+    compare_loop(context);
     compare_files(context);
     mt_context_destroy(context);
     std::printf("limits compared: %zu positions, %zu normals; %zu left out where Far's masks do not hold\n",

@@ -14,6 +14,11 @@ extern "C" {
 
 #define MT_SUBDIVIDE_LEVEL_LIMIT 31
 
+typedef enum mt_subdivide_scheme {
+    MT_SUBDIVIDE_SCHEME_CATMULL_CLARK,
+    MT_SUBDIVIDE_SCHEME_LOOP /* triangles, into four each */
+} mt_subdivide_scheme;
+
 /* In each of these 0 is: as the mesh asks by its tags (mt_subdivision_tag), and where it has none, the first that
  * follows. */
 typedef enum mt_subdivide_boundary {
@@ -60,6 +65,7 @@ typedef struct mt_subdivide_options {
     unsigned level_count; /* 0: 1 level; at most MT_SUBDIVIDE_LEVEL_LIMIT, else MT_ERROR_ARGUMENT */
     bool no_levels;       /* really 0 levels: a copy, unchecked but for `limit`, which then needs quads */
     bool limit;           /* the vertices of the last level lie on the limit surface, with its normals */
+    mt_subdivide_scheme scheme;
     mt_subdivide_boundary boundary;
     mt_subdivide_crease_method crease_method;
     mt_subdivide_face_varying face_varying;
