@@ -106,9 +106,11 @@ static void print_json(const cli_job *job, const mt_mesh_format *read, const mt_
     json_t *object = cli_json_object();
     cli_json_set(object, "file", cli_json_text(job->operands[0]));
     cli_json_set(object, "format", cli_json_text(read->name));
-    cli_json_set(object, "levels", cli_json_integer(settings->levels));
     if (refined) {
         cli_json_set(object, "output", cli_json_text(job->common->output));
+    }
+    cli_json_set(object, "levels", cli_json_integer(settings->levels));
+    if (refined) {
         cli_json_set(object, "vertices", cli_json_integer(refined->vertex_count));
         cli_json_set(object, "faces", cli_json_integer(refined->face_count));
         cli_json_set(object, "lost", json_incref(lost));
