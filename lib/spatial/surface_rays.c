@@ -42,7 +42,7 @@ static void start_walk(ray_walk *walk)
         walk->far_planes[axis] = 2 * axis + !negative;
         walk->near_origin[axis] = setup->float_origin[i] + slack;
         walk->far_origin[axis] = setup->float_origin[i] - slack;
-        walk->reciprocal[axis] = (float)(1 / setup->direction[i]);
+        walk->reciprocal[axis] = 1 / setup->float_direction[i];
     }
     double begin = setup->t_minimum / setup->t_factor - setup->begin;
     begin -= fabs(begin) * 0x1p-22;
@@ -191,26 +191,41 @@ MT_INLINE bool visit_leaf(ray_walk *walk, uint32_t child)
     return bits && decide_leaf(walk, rows, count, bits);
 }
 
+/* Descends to the nearest child met and leaves the others on the stack; MT_SURFACE_UNUSED: none was met. */
+MT_INLINE uint32_t descend(const ray_walk *walk, uint32_t child, mt_pending *stack, size_t *depth)
+{
+    float near[MT_WIDTH];
+    const mt_surface_node *node = &walk->tree->nodes[child];
+    uint32_t bits = enter_children(walk, node, near);
+    if (!bits) {
+        return MT_SURFACE_UNUSED;
+    }
+    if (!(bits & (bits - 1))) {
+        return node->children[__builtin_ctz(bits)];
+    }
+    *depth = mt_push_children(node, near, bits, stack, *depth);
+    return stack[--*depth].child;
+}
+
 MT_CLONES static void walk_tree(ray_walk *walk)
 {
     mt_pending stack[MT_SURFACE_STACK];
-    size_t depth = 1;
-    stack[0] = (mt_pending){walk->begin, 0};
-    while (depth) {
-        mt_pending item = stack[--depth];
-        if (item.near > walk->limit) {
-            continue;
+    size_t depth = 0;
+    uint32_t child = 0;
+    for (;;) {
+        while (!(child & MT_SURFACE_LEAF)) {
+            child = descend(walk, child, stack, &depth);
         }
-        if (item.child & MT_SURFACE_LEAF) {
-            if (visit_leaf(walk, item.child)) {
+        if (child != MT_SURFACE_UNUSED && visit_leaf(walk, child)) {
+            return;
+        }
+        do {
+            if (!depth) {
                 return;
             }
-            continue;
-        }
-        const mt_surface_node *node = &walk->tree->nodes[item.child];
-        float near[MT_WIDTH];
-        uint32_t bits = enter_children(walk, node, near);
-        depth = mt_push_children(node, near, bits, stack, depth);
+            depth--;
+        } while (stack[depth].near > walk->limit);
+        child = stack[depth].child;
     }
 }
 

@@ -16,11 +16,10 @@ typedef struct mt_pending {
  * or triangles at once; each leaves its answer as a bit of its own. */
 MT_INLINE uint32_t mt_bits_of(const int32_t passes[MT_WIDTH])
 {
-    int32_t bits = 0;
-    for (int lane = 0; lane < MT_WIDTH; lane++) {
-        bits |= passes[lane];
-    }
-    return (uint32_t)bits;
+    uint64_t pairs[MT_WIDTH / 2];
+    __builtin_memcpy(pairs, passes, sizeof pairs);
+    uint64_t bits = (pairs[0] | pairs[1]) | (pairs[2] | pairs[3]);
+    return (uint32_t)(bits | bits >> 32);
 }
 
 /* Pushes the children of which a bit is set, the nearest on top; returns the new depth. */
