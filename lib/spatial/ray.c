@@ -12,6 +12,8 @@
 
 #include "lib/spatial/ray_formulas.h"
 
+#include <string.h>
+
 /* In float units of 2^-24: what rounding moves a sheared corner, at most, for coordinates relative to the origin up to
  * `reach`. Subtraction, shear, product and second subtraction round by half a unit each on both axes, origin and
  * vertices as well: 6 in all; with less, boxes would be culled that hold a hit. */
@@ -64,26 +66,49 @@ static void round_setup(mt_ray_setup *setup)
     setup->slack = (float)(SLACK_UNITS * 0x1p-24 * reach);
 }
 
+/* A power of two and its inverse. */
+typedef struct power {
+    double power, inverse;
+} power;
+
+/* The power of two that brings a length into [0.5, 1), by its exponent's bits: this is done for every ray. The few
+ * lengths whose power has no inverse come as near as those that have. */
+static power scale_of(double length)
+{
+    uint64_t bits;
+    memcpy(&bits, &length, sizeof bits);
+    uint64_t exponent = bits >> 52;
+    exponent = exponent < 1 ? 1 : exponent > 2044 ? 2044 : exponent;
+    uint64_t scale = (2045 - exponent) << 52, inverse = (exponent + 1) << 52;
+    power result;
+    memcpy(&result.power, &scale, sizeof scale);
+    memcpy(&result.inverse, &inverse, sizeof inverse);
+    return result;
+}
+
 void mt_ray_setup_init(const mt_ray_space *space, const mt_ray *ray, mt_ray_profile profile, mt_ray_setup *setup)
 {
-    *setup = (mt_ray_setup){.profile = profile, .skip = ray->skip};
+    setup->profile = profile;
+    setup->skip = ray->skip;
+    setup->valid = false;
     mt_vec3 origin = mt_ray_space_point(space, ray->origin);
     double largest = mt_vec3_max_abs(ray->direction);
     if (!mt_vec3_is_finite(origin) || !(largest > 0 && largest < INFINITY)) {
         return;
     }
-    double unit = mt_power_of_two_scale(largest);
-    mt_vec3 direction = mt_vec3_scale(ray->direction, unit);
+    power unit = scale_of(largest);
+    mt_vec3 direction = mt_vec3_scale(ray->direction, unit.power);
     setup->valid = true;
-    setup->t_factor = unit / space->scale;
+    setup->t_factor = unit.power * (1 / space->scale);
+    setup->parameter_factor = unit.inverse * space->scale;
     setup->begin = choose_begin(origin, direction);
     origin = mt_vec3_add(origin, mt_vec3_scale(direction, setup->begin));
     choose_axes(direction, setup->axes);
     permute(origin, setup->axes, setup->origin);
     permute(direction, setup->axes, setup->direction);
     setup->reciprocal = 1 / setup->direction[2];
-    setup->shear[0] = setup->direction[0] / setup->direction[2];
-    setup->shear[1] = setup->direction[1] / setup->direction[2];
+    setup->shear[0] = setup->direction[0] * setup->reciprocal;
+    setup->shear[1] = setup->direction[1] * setup->reciprocal;
     setup->t_minimum = ray->t_minimum;
     setup->t_maximum = ray->t_maximum;
     round_setup(setup);

@@ -27,7 +27,7 @@ typedef struct ray_walk {
 /* A parameter in space not below that of t, as a float. */
 static float parameter_above(const mt_ray_setup *setup, double t)
 {
-    double parameter = t / setup->t_factor - setup->begin;
+    double parameter = t * setup->parameter_factor - setup->begin;
     return (float)(parameter + fabs(parameter) * 0x1p-22 + setup->begin * 0x1p-50);
 }
 
@@ -44,7 +44,7 @@ static void start_walk(ray_walk *walk)
         walk->far_origin[axis] = setup->float_origin[i] - slack;
         walk->reciprocal[axis] = 1 / setup->float_direction[i];
     }
-    double begin = setup->t_minimum / setup->t_factor - setup->begin;
+    double begin = setup->t_minimum * setup->parameter_factor - setup->begin;
     begin -= fabs(begin) * 0x1p-22;
     walk->begin = setup->begin > 0 && begin < 0 ? 0 : (float)begin;
     walk->limit = parameter_above(setup, setup->t_maximum);
@@ -191,6 +191,17 @@ MT_INLINE bool visit_leaf(ray_walk *walk, uint32_t child)
     return bits && decide_leaf(walk, rows, count, bits);
 }
 
+/* While the nearest child is looked at, its brother comes from memory. */
+MT_INLINE void prefetch_child(const mt_surface_tree *tree, uint32_t child)
+{
+    bool is_leaf = child & MT_SURFACE_LEAF;
+    const void *leaf = tree->words + (size_t)mt_surface_leaf_first(child) * MT_SURFACE_WORDS;
+    const char *at = is_leaf ? leaf : (const void *)(tree->nodes + (is_leaf ? 0 : child));
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + 64);
+    __builtin_prefetch(at + 128);
+}
+
 /* Descends to the nearest child met and leaves the others on the stack; MT_SURFACE_UNUSED: none was met. */
 MT_INLINE uint32_t descend(const ray_walk *walk, uint32_t child, mt_pending *stack, size_t *depth)
 {
@@ -204,6 +215,7 @@ MT_INLINE uint32_t descend(const ray_walk *walk, uint32_t child, mt_pending *sta
         return node->children[__builtin_ctz(bits)];
     }
     *depth = mt_push_children(node, near, bits, stack, *depth);
+    prefetch_child(walk->tree, stack[*depth - 2].child);
     return stack[--*depth].child;
 }
 

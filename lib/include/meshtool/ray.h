@@ -77,6 +77,7 @@ typedef struct mt_ray_setup {
     double reciprocal;   /* 1 / direction[2] */
     double begin;        /* parameter of `origin` on the ray, in space */
     double t_factor;     /* t = (begin + parameter) * t_factor */
+    double parameter_factor; /* its inverse */
     double t_minimum, t_maximum;
     float float_origin[3], float_direction[3], float_shear[2]; /* the same, rounded; by axes */
     /* What is lost by rounding origin and vertices, the shear included: a triangle that is hit lies at most so far off
