@@ -146,6 +146,11 @@ static void a_collapsed_edge_merges_what_lies_on_its_ends(void **state)
         source->point_vertices = mt_allocate(context, sizeof(mt_index));
         source->point_vertices[0] = 0;
         source->point_count = 1;
+        source->wire_offsets = mt_allocate(context, 2 * sizeof(mt_index));
+        source->wire_vertices = mt_allocate(context, 3 * sizeof(mt_index));
+        source->wire_offsets[0] = 0, source->wire_offsets[1] = 3;
+        source->wire_vertices[0] = 2, source->wire_vertices[1] = 0, source->wire_vertices[2] = 5;
+        source->wire_count = 1;
         mt_vec3 gone = mt_mesh_position(source, 0), kept = mt_mesh_position(source, 1);
         void *surgery = test_surgery_begin(context, surgeon, source);
         test_surgery_operate(context, surgeon, surgery,
@@ -158,6 +163,8 @@ static void a_collapsed_edge_merges_what_lies_on_its_ends(void **state)
         assert_int_equal(mesh->sharp_vertex_count, 1);
         assert_true(mesh->sharp_vertices[0].vertex == 0 && mesh->sharp_vertices[0].value == 4);
         assert_true(mesh->point_count == 1 && mesh->point_vertices[0] == 0);
+        assert_int_equal(mesh->wire_count, 1);
+        assert_true(mesh->wire_vertices[0] == 1 && mesh->wire_vertices[1] == 0 && mesh->wire_vertices[2] == 4);
         mt_mesh_destroy(context, mesh);
         mt_mesh_destroy(context, source);
     }
