@@ -145,3 +145,46 @@ mt_mesh *test_renumbered(mt_context *context, test_random *random, const mt_mesh
     free(faces);
     return copy;
 }
+
+void test_sharpen(mt_context *context, test_random *random, mt_mesh *mesh)
+{
+    static const double values[] = {0.5, 1, 1.5, 2.5, 10};
+    mesh->creases = mt_allocate_array(context, mesh->corner_count, sizeof *mesh->creases);
+    mesh->sharp_vertices = mt_allocate_array(context, mesh->vertex_count, sizeof *mesh->sharp_vertices);
+    for (mt_index face = 0; face < mesh->face_count; face++) {
+        mt_index begin = mt_mesh_face_begin(mesh, face), end = mt_mesh_face_end(mesh, face);
+        for (mt_index corner = begin; corner < end; corner++) {
+            mt_index next = corner + 1 < end ? corner + 1 : begin;
+            if (test_random_below(random, 3) == 0) {
+                mesh->creases[mesh->crease_count++] = (mt_edge_value){
+                    mesh->corner_vertices[corner], mesh->corner_vertices[next], values[test_random_below(random, 5)]};
+            }
+        }
+    }
+    for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex++) {
+        if (test_random_below(random, 10) == 0) {
+            mesh->sharp_vertices[mesh->sharp_vertex_count++] =
+                (mt_vertex_value){vertex, values[test_random_below(random, 5)]};
+        }
+    }
+}
+
+void test_add_uvs(mt_context *context, test_random *random, mt_mesh *mesh)
+{
+    mt_attribute_layout layout = {.semantic = MT_SEMANTIC_UV,
+                                  .domain = MT_DOMAIN_CORNER,
+                                  .type = MT_F64,
+                                  .component_count = 2,
+                                  .value_count = 2 * (uint64_t)mesh->vertex_count,
+                                  .indexed = true};
+    mt_attribute *uv = NULL;
+    assert_int_equal(mt_mesh_add_attribute(context, mesh, &layout, &uv), MT_OK);
+    for (mt_index value = 0; value < uv->value_count; value++) {
+        mt_attribute_set(uv, value, 0, test_random_unit(random));
+        mt_attribute_set(uv, value, 1, test_random_unit(random));
+    }
+    for (mt_index corner = 0; corner < mesh->corner_count; corner++) {
+        uv->indices[corner] =
+            mesh->corner_vertices[corner] + (test_random_below(random, 6) == 0 ? mesh->vertex_count : 0);
+    }
+}

@@ -16,4 +16,10 @@ mt_mesh *test_cage(mt_context *context, test_random *random, mt_index columns, m
 mt_mesh *test_renumbered(mt_context *context, test_random *random, const mt_mesh *mesh, bool reverse,
                          mt_index *corner_images);
 
+/* Adds creases to a third of the sides and corners to a tenth of the vertices, of sharpness 0.5 to 10. */
+void test_sharpen(mt_context *context, test_random *random, mt_mesh *mesh);
+
+/* Adds UVs with seams: most corners have their vertex's value, some another. */
+void test_add_uvs(mt_context *context, test_random *random, mt_mesh *mesh);
+
 #endif
