@@ -121,6 +121,31 @@ static mt_status fill_field(mt_context *context, mt_subdivide_field *field, cons
     return field->owned ? MT_OK : mt_context_error(context)->status;
 }
 
+static mt_subdivide_rule smooth_rule(mt_subdivide_face_varying option)
+{
+    bool still = option == MT_SUBDIVIDE_FACE_VARYING_BOUNDARIES;
+    return still ? MT_SUBDIVIDE_SMOOTH_BUT_BOUNDARY : MT_SUBDIVIDE_SMOOTH;
+}
+
+/* UVs that a file gave by vertex have no seam, and are face-varying like others. */
+static mt_status add_vertex_uvs(mt_context *context, mt_subdivide_state *state, const mt_attribute *attribute,
+                                mt_subdivide_field *field)
+{
+    mt_subdivide_face_varying option = state->settings.face_varying;
+    mt_value_rules *rules = &state->value_rules[0];
+    mt_status status = MT_OK;
+    field->rule = MT_SUBDIVIDE_LINEAR;
+    if (option != MT_SUBDIVIDE_FACE_VARYING_ALL) {
+        const mt_subdivide_topology *topology = &state->topologies[0];
+        field->rule = smooth_rule(option);
+        field->face_varying = true;
+        if (!rules->smooth) {
+            status = mt_value_rules_create(context, topology, topology, &state->sharp, &state->settings, rules);
+        }
+    }
+    return status == MT_OK ? fill_field(context, field, attribute, NULL, state->mesh->vertex_count) : status;
+}
+
 static mt_status add_corner_field(mt_context *context, mt_subdivide_state *state, const mt_attribute *attribute,
                                   mt_subdivide_field *field)
 {
@@ -132,8 +157,8 @@ static mt_status add_corner_field(mt_context *context, mt_subdivide_state *state
         mt_status status = add_linear_topology(context, state, attribute);
         return status == MT_OK ? fill_field(context, field, attribute, NULL, attribute->value_count) : status;
     }
-    bool still = option == MT_SUBDIVIDE_FACE_VARYING_BOUNDARIES;
-    field->rule = still ? MT_SUBDIVIDE_SMOOTH_BUT_BOUNDARY : MT_SUBDIVIDE_SMOOTH;
+    field->rule = smooth_rule(option);
+    field->face_varying = true;
     mt_status status = add_smooth_topology(context, state, attribute, &sources);
     if (status == MT_OK) {
         mt_index count = state->topologies[field->topology].vertex_count;
@@ -150,6 +175,9 @@ static mt_status add_field(mt_context *context, mt_subdivide_state *state, mt_in
     *field = (mt_subdivide_field){.attribute = number};
     if (attribute->domain == MT_DOMAIN_CORNER) {
         return add_corner_field(context, state, attribute, field);
+    }
+    if (attribute->semantic == MT_SEMANTIC_UV) {
+        return add_vertex_uvs(context, state, attribute, field);
     }
     if (mt_semantic_interpolation(attribute->semantic, attribute->type) != MT_INTERPOLATE_NONE) {
         return fill_field(context, field, attribute, NULL, state->mesh->vertex_count);

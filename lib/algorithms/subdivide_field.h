@@ -12,7 +12,8 @@ typedef struct mt_subdivide_field {
     mt_index attribute; /* its number in the mesh, MT_NONE for the positions */
     mt_index topology;  /* whose vertices it lies on */
     mt_subdivide_rule rule;
-    mt_type type; /* of the values in work: MT_F32 or MT_F64, MT_U32 for MT_SUBDIVIDE_ORIGIN */
+    bool face_varying; /* by the value rules of its topology, where it is smooth */
+    mt_type type;      /* of the values in work: MT_F32 or MT_F64, MT_U32 for MT_SUBDIVIDE_ORIGIN */
     uint32_t component_count;
     const void *values;
     void *owned; /* the values when they are not the mesh's or the result's */
@@ -23,7 +24,7 @@ typedef struct mt_subdivide_state {
     const mt_mesh *mesh;
     mt_index topology_count;
     mt_subdivide_topology *topologies; /* 0: of the vertices; then one for each corner attribute that is mixed */
-    mt_value_rules *value_rules;       /* of each topology but the first */
+    mt_value_rules *value_rules;       /* of each topology; of the first for UVs on vertices */
     mt_index field_count;
     mt_subdivide_field *fields;    /* 0: the positions */
     mt_subdivide_options settings; /* with the mesh's tags where nothing was asked for; level_count at least 1 */

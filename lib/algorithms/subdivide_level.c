@@ -81,9 +81,12 @@ static void plan_patches(const mt_subdivide_state *state, mt_index number, const
     const mt_subdivide_field *field = &state->fields[number];
     const mt_value_rules *rules = &state->value_rules[field->topology];
     bool wide = field->type == MT_F64;
-    mt_subdivide_patches_add(values, &state->sharp, &plan->patches, rules->apart, wide, &plan->third);
-    mt_subdivide_vertex_patches_add(values, plan->value_patches[field->topology], NULL,
-                                    (uint64_t)rules->fixed_count + rules->fading_count, wide, &plan->third);
+    mt_subdivide_patches_add(values, &state->sharp, &plan->patches, field->face_varying ? rules->apart : NULL, wide,
+                             &plan->third);
+    if (field->face_varying) {
+        mt_subdivide_vertex_patches_add(values, plan->value_patches[field->topology], NULL,
+                                        (uint64_t)rules->fixed_count + rules->fading_count, wide, &plan->third);
+    }
 }
 
 /* The next values of a field: in the result where they can, else in memory of their own. */
@@ -183,7 +186,7 @@ static void advance_state(mt_context *context, mt_subdivide_state *state, level_
     for (mt_index i = 0; i < state->topology_count; i++) {
         mt_subdivide_topology_release(context, &state->topologies[i]);
     }
-    for (mt_index i = 1; i < state->topology_count; i++) {
+    for (mt_index i = 0; i < state->topology_count; i++) {
         mt_value_rules_release(context, &state->value_rules[i]);
         state->value_rules[i] = plan->value_rules[i];
         memset(&plan->value_rules[i], 0, sizeof plan->value_rules[i]);
@@ -212,7 +215,7 @@ mt_status mt_subdivide_level(mt_context *context, mt_subdivide_state *state, con
     if (status == MT_OK && state->cut) {
         status = mt_subdivide_cut_refine(context, &state->topologies[0], state->cut);
     }
-    for (mt_index i = 1; status == MT_OK && i < state->topology_count; i++) {
+    for (mt_index i = 0; status == MT_OK && i < state->topology_count; i++) {
         status = plan_value_rules(context, state, i, &plan);
     }
     for (mt_index i = 0; status == MT_OK && i < state->field_count; i++) {

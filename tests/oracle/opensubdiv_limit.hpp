@@ -3,7 +3,8 @@
 // Left out, as Far's masks do not hold there: vertices that are still semi-sharp (Far takes the rule of the level for
 // one that holds for ever), darts that are sharp for ever (it takes the smooth mask), normals of creases and boundaries
 // with more than two faces on a side (it takes a mask that belongs to other rules; ours is the same at every level,
-// which Far's is not), and corners of several faces, which have no tangent plane.
+// which Far's is not), and corners of several faces, which have no tangent plane;
+// neither has a vertex where sheets meet.
 #ifndef TESTS_ORACLE_OPENSUBDIV_LIMIT_HPP
 #define TESTS_ORACLE_OPENSUBDIV_LIMIT_HPP
 

@@ -35,9 +35,9 @@ typedef enum mt_subdivide_crease_method {
     MT_SUBDIVIDE_CREASES_CHAIKIN /* to 3/4 of its own and 1/4 of the mean of the others at the vertex, less 1 */
 } mt_subdivide_crease_method;
 
-/* How values at corners (UVs, normals, colours) are refined. A seam is an edge whose two faces have different values.
- * All but ALL follow the vertex rule away from seams and boundaries, and a cubic B-spline along them; the values at the
- * ends of what is listed here stay where they are instead. */
+/* How values at corners (UVs, normals, colours) are refined, and UVs on vertices. A seam is an edge whose two faces
+ * have different values. All but ALL follow the vertex rule away from seams and boundaries, and a cubic B-spline along
+ * them; the values at the ends of what is listed here stay where they are instead. */
 typedef enum mt_subdivide_face_varying {
     MT_SUBDIVIDE_FACE_VARYING_AS_TAGGED,
     MT_SUBDIVIDE_FACE_VARYING_ALL,           /* linear everywhere */
@@ -93,28 +93,27 @@ mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_
                              const mt_subdivide_options *options, unsigned level, mt_subdivide_counts *out);
 
 /* Refines. With V, F and C the old vertices, faces and corners:
- *   vertices   the old ones in their order, then face points by face (V + f), then edge points by the first corner of
- *              the edge; the vertex rule is (F + 2R + (n-3)P)/n, boundary edges follow the cubic B-spline; vertices in
- *              no face stay
- *   faces      one for each old corner, in their order, each (old vertex, edge point of its side, face point, edge
- *              point of the side before)
- *   wires, points    as they are: their vertices keep their numbers
- *   labels, face attributes    inherited from the old face; mesh attributes are copied
- *   vertex attributes    by the vertex rule, like positions; integers of generic meaning are copied: to a face or edge
- *              point from the vertex of its first corner
- *   corner attributes    as face_varying says; linearly: midpoints of edges and means of faces. A seam of an indexed
- *              one stays a seam, and its values are numbered as vertices are; one without indices gets them. With other
- *              rules than linear ones each vertex gets values of its own first: by vertex, and there by the first
- *              corner around it. Corners that have no value make their face pass none on. Integers of generic meaning
- *              are copied from the old corner
- *   normals    by the same rules, then made unit: they are carried, not computed anew, and a warning says so. With
- *              `limit` they are those of the limit surface: one a vertex, or where creases and corners part some, one
- *              for each smooth part around a vertex, on corners
- *   creases, sharp vertices    as OpenSubdiv 3.5 follows them, in single precision as there: an edge or vertex of
- *              sharpness s stays sharp for s levels, 10 and more for ever, and blends with the smooth rule when less
- *              than 1 is left. Boundary edges are infinitely sharp. What is left of the sharpness is passed on to the
- *              halves of the edges
- *   holes      take part, and are left out at the end with the attribute that marks them; their vertices stay
+ * - vertices: the old ones in their order, then face points by face (V + f), then edge points by the first corner of
+ *   the edge; the vertex rule is (F + 2R + (n-3)P)/n, boundary edges follow the cubic B-spline; what is in no face
+ *   stays
+ * - faces: one for each old corner, in their order, each (old vertex, edge point of its side, face point, edge point of
+ *   the side before)
+ * - wires, points: as they are; their vertices keep their numbers
+ * - labels, face attributes: inherited from the old face; mesh attributes are copied
+ * - vertex attributes: by the vertex rule, like positions, but UVs like corner attributes; integers of generic meaning
+ *   are copied, to a face or edge point from the vertex of its first corner
+ * - corner attributes: as face_varying says; linearly: midpoints of edges and means of faces. A seam of an indexed one
+ *   stays a seam, and its values are numbered as vertices are; one without indices gets them. With other rules than
+ *   linear ones each vertex gets values of its own first: by vertex, and there by the first corner around it. Corners
+ *   that have no value make their face pass none on. Integers of generic meaning are copied from the old corner
+ * - normals: by the same rules, then made unit: they are carried, not computed anew, and a warning says so. With
+ *   `limit` they are those of the limit surface: one a vertex, or where creases and corners part some, one for each
+ *   smooth part around a vertex, on corners
+ * - creases, sharp vertices: as OpenSubdiv 3.5 follows them, in single precision as there: an edge or vertex of
+ *   sharpness s stays sharp for s levels, 10 and more for ever, and blends with the smooth rule when less than 1 is
+ *   left. Boundary edges are infinitely sharp. What is left of the sharpness is passed on to the halves of the edges
+ * - holes: take part, and are left out at the end with the attribute that marks them; their vertices stay
+ *
  * Integers are computed as floats over all levels and rounded once. Values are stored in the mesh's precision at each
  * level and computed in double.
  *
