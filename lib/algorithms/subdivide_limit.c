@@ -153,7 +153,9 @@ mt_status mt_subdivide_to_limit(mt_context *context, mt_subdivide_state *state, 
     limit_job job = {.rings = {.topology = topology,
                                .mesh = result,
                                .sharp = &state->sharp,
-                               .irregular_count = topology->vertex_corner_count}};
+                               .irregular_count = topology->scheme == MT_SUBDIVIDE_SCHEME_LOOP
+                                                      ? topology->vertex_count
+                                                      : topology->vertex_corner_count}};
     mt_status status = mt_subdivide_sharp_plan(context, topology, &state->sharp, &patches);
     if (status == MT_OK && topology->level) {
         status = mt_subdivide_find_vertex_corners(context, topology);

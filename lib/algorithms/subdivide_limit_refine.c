@@ -8,6 +8,10 @@
  * taken as it stands after DART_LEVELS. */
 #include "lib/algorithms/subdivide_limit_ring.h"
 
+#include "lib/algorithms/subdivide_loop.h"
+
+#include <string.h>
+
 #define DART_LEVELS 960       /* so that the scale stays finite; errors are then below 1e-9 up to 30 faces */
 #define DART_LEVELS_LEAST 128 /* after which the position stands still: differences shrink by 0.66 and more a level */
 #define DART_STANDS 2e-15     /* so little, some roundings, the tangent turns by when it stands still */
@@ -49,8 +53,13 @@ static double decay_weight(const mt_limit_sharp_ring *sharp)
     return (double)mt_sharpness_decay_weight(&decay);
 }
 
+/* Of quads the diagonals become face points; of triangles they keep the old ends. */
 static void make_face_points(mt_limit_ring *ring)
 {
+    if (ring->triangles) {
+        memcpy(ring->diagonals, ring->ends, mt_limit_spoke_count(ring) * sizeof *ring->ends);
+        return;
+    }
     for (mt_index i = 0; i < ring->face_count; i++) {
         mt_vec3 sides = mt_vec3_add(ring->ends[i], ring->ends[mt_limit_next_spoke(ring, i)]);
         ring->diagonals[i] = mt_vec3_scale(mt_vec3_add(sides, ring->diagonals[i]), 0.25);
@@ -61,14 +70,15 @@ static void make_face_points(mt_limit_ring *ring)
 static mt_vec3 move_by(const mt_limit_ring *ring, mt_subdivide_vertex_rule rule, const mt_index ends[2])
 {
     mt_vec3 sum = {0, 0, 0};
+    double n = ring->face_count;
     if (rule == MT_VERTEX_CREASE) {
         return mt_vec3_scale(mt_vec3_add(ring->ends[ends[0]], ring->ends[ends[1]]), 0.125);
     }
     for (mt_index i = 0; rule != MT_VERTEX_CORNER && i < ring->face_count; i++) {
-        sum = mt_vec3_add(sum, mt_vec3_add(ring->ends[i], ring->diagonals[i]));
+        mt_vec3 diagonal = ring->triangles ? mt_vec3_make(0, 0, 0) : ring->diagonals[i];
+        sum = mt_vec3_add(sum, mt_vec3_add(ring->ends[i], diagonal));
     }
-    double n = ring->face_count;
-    return mt_vec3_scale(sum, 1 / (n * n));
+    return mt_vec3_scale(sum, ring->triangles ? mt_loop_weight(ring->face_count) : 1 / (n * n));
 }
 
 static mt_vec3 blended_move(const mt_limit_sharp_ring *sharp)
@@ -84,6 +94,19 @@ static mt_vec3 blended_move(const mt_limit_sharp_ring *sharp)
     return mt_vec3_add(next, mt_vec3_scale(mt_vec3_subtract(move, next), weight));
 }
 
+/* By the rule of smooth edges; the diagonals are made already. */
+static mt_vec3 smooth_edge_point(const mt_limit_ring *ring, mt_index spoke)
+{
+    mt_index before = spoke ? spoke - 1 : ring->face_count - 1;
+    if (ring->triangles) {
+        mt_index after = mt_limit_next_spoke(ring, spoke);
+        mt_vec3 beside = mt_vec3_add(ring->diagonals[before], ring->diagonals[after]);
+        return mt_vec3_add(mt_vec3_scale(ring->ends[spoke], 0.375), mt_vec3_scale(beside, 0.125));
+    }
+    mt_vec3 faces = mt_vec3_add(ring->diagonals[before], ring->diagonals[spoke]);
+    return mt_vec3_scale(mt_vec3_add(ring->ends[spoke], faces), 0.25);
+}
+
 static void make_edge_points(mt_limit_sharp_ring *sharp)
 {
     mt_limit_ring *ring = &sharp->ring;
@@ -95,9 +118,7 @@ static void make_edge_points(mt_limit_sharp_ring *sharp)
             ring->ends[i] = middle;
             continue;
         }
-        mt_index before = i ? i - 1 : ring->face_count - 1;
-        mt_vec3 faces = mt_vec3_add(ring->diagonals[before], ring->diagonals[i]);
-        mt_vec3 smooth = mt_vec3_scale(mt_vec3_add(ring->ends[i], faces), 0.25);
+        mt_vec3 smooth = smooth_edge_point(ring, i);
         ring->ends[i] = mt_vec3_add(smooth, mt_vec3_scale(mt_vec3_subtract(middle, smooth), weight));
     }
 }

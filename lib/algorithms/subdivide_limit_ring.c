@@ -7,10 +7,12 @@
  * Across a crease with k faces on this side, with the angle pi / k in the place of 2 pi / n, the sines weigh what lies
  * between, and the crease's own ends have the weight that makes of it a left eigenvector of the subdivision matrix.
  * The mask of Biermann et al., which OpenSubdiv takes, is none for 1, 3 and more faces: it belongs to their modified
- * rules. Beyond 4 faces Catmull-Clark's own crease has no tangent plane, but this and the tangent along it.
- * Known failure: differences beyond the largest double are infinite, and the normal is then (0, 0, 1). */
+ * rules. Triangles have the same masks without diagonals. Beyond 4 faces Catmull-Clark's own crease has no tangent
+ * plane, but this and the tangent along it. Known failure: differences beyond the largest double are infinite, and the
+ * normal is then (0, 0, 1). */
 #include "lib/algorithms/subdivide_limit_ring.h"
 
+#include "lib/algorithms/subdivide_loop.h"
 #include "lib/algorithms/subdivide_sum.h"
 
 #include <meshtool/elementary.h>
@@ -36,9 +38,22 @@ static mt_vec3 sum_of_four(const mt_vec3 *terms)
     return mt_vec3_add(mt_vec3_add(terms[0], terms[2]), mt_vec3_add(terms[1], terms[3]));
 }
 
+/* With b the weight of a neighbour in the mask of a level, that in the limit's is 1 / (n + 3 / (8 b)). */
+static mt_vec3 smooth_move_of_triangles(const mt_limit_ring *ring)
+{
+    vector_sum sum = {{0, 0}, {0, 0}, {0, 0}};
+    for (mt_index i = 0; i < ring->face_count; i++) {
+        add(&sum, ring->ends[i]);
+    }
+    return mt_vec3_scale(value(&sum), 1 / (ring->face_count + 0.375 / mt_loop_weight(ring->face_count)));
+}
+
 static mt_vec3 smooth_move(const mt_limit_ring *ring)
 {
     double n = ring->face_count;
+    if (ring->triangles) {
+        return smooth_move_of_triangles(ring);
+    }
     if (ring->face_count == 4) {
         mt_vec3 ends = mt_vec3_scale(sum_of_four(ring->ends), 4);
         return mt_vec3_scale(mt_vec3_add(ends, sum_of_four(ring->diagonals)), 1.0 / 36);
@@ -85,8 +100,9 @@ static mt_vec3 area_vector(const mt_limit_ring *ring, mt_limit_sector sector, bo
         mt_index face = step(ring, sector.first, i);
         mt_vec3 a = mt_vec3_scale(ring->ends[face], scale);
         mt_vec3 b = mt_vec3_scale(ring->ends[mt_limit_next_spoke(ring, face)], scale);
-        mt_vec3 diagonal = mt_vec3_scale(ring->diagonals[face], scale);
-        add(&sum, whole ? mt_vec3_cross(mt_vec3_subtract(a, b), diagonal) : mt_vec3_cross(a, b));
+        mt_vec3 diagonal = ring->triangles ? b : mt_vec3_scale(ring->diagonals[face], scale);
+        bool half = ring->triangles || !whole;
+        add(&sum, half ? mt_vec3_cross(a, b) : mt_vec3_cross(mt_vec3_subtract(a, b), diagonal));
     }
     return value(&sum);
 }
@@ -103,13 +119,22 @@ static void regular_tangents(const mt_limit_ring *ring, mt_index first, mt_vec3 
     *across = mt_vec3_add(mt_vec3_scale(mt_vec3_subtract(e[1], e[3]), 4), mt_vec3_add(even, odd));
 }
 
+static void add_weighted(const mt_limit_ring *ring, mt_index spoke, double end, double diagonal, vector_sum *sum)
+{
+    add(sum, mt_vec3_scale(ring->ends[spoke], end));
+    if (!ring->triangles) {
+        add(sum, mt_vec3_scale(ring->diagonals[spoke], diagonal));
+    }
+}
+
 void mt_limit_smooth_tangents(const mt_limit_ring *ring, mt_index first, mt_vec3 *along, mt_vec3 *across)
 {
-    if (ring->face_count == 4) {
+    if (ring->face_count == 4 && !ring->triangles) {
         regular_tangents(ring, first, along, across);
         return;
     }
-    if (ring->face_count == 2) { /* the formula's weights vanish, and these have the same eigenvalue */
+    if (ring->face_count == 2 &&
+        !ring->triangles) { /* the formula's weights vanish, and these have the same eigenvalue */
         *along = mt_vec3_subtract(ring->ends[first], ring->ends[first ^ 1]);
         *across = mt_vec3_subtract(ring->diagonals[first], ring->diagonals[first ^ 1]);
         return;
@@ -122,10 +147,8 @@ void mt_limit_smooth_tangents(const mt_limit_ring *ring, mt_index first, mt_vec3
     for (mt_index i = 0; i < ring->face_count; i++) {
         mt_index spoke = step(ring, first, i);
         double next_c = mt_cos(turn * (i + 1)), next_s = mt_sin(turn * (i + 1));
-        add(&sums[0], mt_vec3_scale(ring->ends[spoke], weight * c));
-        add(&sums[0], mt_vec3_scale(ring->diagonals[spoke], c + next_c));
-        add(&sums[1], mt_vec3_scale(ring->ends[spoke], weight * s));
-        add(&sums[1], mt_vec3_scale(ring->diagonals[spoke], s + next_s));
+        add_weighted(ring, spoke, weight * c, c + next_c, &sums[0]);
+        add_weighted(ring, spoke, weight * s, s + next_s, &sums[1]);
         c = next_c;
         s = next_s;
     }
@@ -160,13 +183,15 @@ static mt_vec3 tangent_across(const mt_limit_ring *ring, mt_limit_sector sector)
     double cosine = mt_cos(angle), sine = mt_sin(angle);
     double weight = 1 + cosine + mt_cos(angle / 2) * sqrt(2 * (9 + cosine));
     double border = (sine * (weight + 4) - 2 * (1 + cosine) / sine * (weight + 2)) / weight;
+    if (ring->triangles) {
+        border = (sine - (1 + cosine) / sine) / (1 + 2 * cosine) * weight;
+    }
     vector_sum sum = {{0, 0}, {0, 0}, {0, 0}};
     double s = 0, next_s = sine;
     mt_index spoke = sector.first;
     add(&sum, mt_vec3_scale(ring->ends[spoke], border));
     for (mt_index i = 0; i < sector.face_count; i++) {
-        add(&sum, mt_vec3_scale(ring->ends[spoke], weight * s));
-        add(&sum, mt_vec3_scale(ring->diagonals[spoke], s + next_s));
+        add_weighted(ring, spoke, weight * s, s + next_s, &sum);
         spoke = mt_limit_next_spoke(ring, spoke);
         s = next_s;
         next_s = i + 2 < sector.face_count ? mt_sin(angle * (i + 2)) : 0;

@@ -1,8 +1,8 @@
-/* The quads around a vertex, and where Catmull-Clark takes it.
+/* The quads around a vertex, and where Catmull-Clark takes it; or the triangles, and where Loop's scheme does.
  *
  * Sources: Halstead, Kass and DeRose, "Efficient, Fair Interpolation using Catmull-Clark Surfaces", SIGGRAPH 1993
- * (the masks of smooth vertices); Biermann, Levin and Zorin, "Piecewise Smooth Subdivision Surfaces with Normal
- * Control", SIGGRAPH 2000 (how those of creases and boundaries are found). */
+ * (the masks of smooth vertices); Loop, 1987 (those of triangles); Biermann, Levin and Zorin, "Piecewise Smooth
+ * Subdivision Surfaces with Normal Control", SIGGRAPH 2000 (how those of creases and boundaries are found). */
 #ifndef LIB_ALGORITHMS_SUBDIVIDE_LIMIT_RING_H
 #define LIB_ALGORITHMS_SUBDIVIDE_LIMIT_RING_H
 
@@ -15,10 +15,10 @@
 typedef struct mt_limit_ring {
     mt_vec3 center;
     double scale;
-    bool closed;
+    bool closed, triangles;
     mt_index face_count;
     mt_vec3 *ends;      /* of the spokes */
-    mt_vec3 *diagonals; /* the corners of the faces opposite the center */
+    mt_vec3 *diagonals; /* the corners of the quads opposite the center; of triangles room for as many ends */
 } mt_limit_ring;
 
 static inline mt_index mt_limit_spoke_count(const mt_limit_ring *ring)

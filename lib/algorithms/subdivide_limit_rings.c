@@ -3,13 +3,13 @@
 
 static mt_index next(const mt_subdivide_topology *topology, mt_index corner)
 {
-    return mt_subdivide_next(topology, corner, 4);
+    return mt_subdivide_next(topology, corner, topology->face_size);
 }
 
 /* The corner counter-clockwise of this one; itself when the boundary lies there. */
 static mt_index turn(const mt_subdivide_topology *topology, mt_index corner)
 {
-    mt_index previous = mt_subdivide_previous(topology, corner, 4);
+    mt_index previous = mt_subdivide_previous(topology, corner, topology->face_size);
     return topology->twins[previous] == previous ? corner : topology->twins[previous];
 }
 
@@ -69,7 +69,7 @@ static mt_status number_edges(mt_context *context, mt_limit_rings *rings)
         rings->edge_slots[edge] = MT_NONE;
     }
     for (mt_index slot = 0; slot < rings->sharp->edge_count; slot++) {
-        rings->edge_slots[mt_subdivide_edge(topology, rings->sharp->edges[slot].side, 4)] = slot;
+        rings->edge_slots[mt_subdivide_edge(topology, rings->sharp->edges[slot].side, topology->face_size)] = slot;
     }
     return MT_OK;
 }
@@ -115,6 +115,7 @@ bool mt_limit_ring_gather(const mt_limit_rings *rings, mt_index vertex, mt_index
     mt_index start = topology->vertex_corners[vertex], corner = start, after = start;
     ring->center = mt_mesh_position(rings->mesh, vertex);
     ring->scale = 1;
+    ring->triangles = topology->face_size == 3;
     ring->face_count = 0;
     do {
         if (ring->face_count == room) {
@@ -123,7 +124,9 @@ bool mt_limit_ring_gather(const mt_limit_rings *rings, mt_index vertex, mt_index
         corner = after;
         mt_index end = next(topology, corner);
         ring->ends[ring->face_count] = difference(rings, end, ring->center);
-        ring->diagonals[ring->face_count] = difference(rings, next(topology, end), ring->center);
+        if (!ring->triangles) {
+            ring->diagonals[ring->face_count] = difference(rings, next(topology, end), ring->center);
+        }
         if (corners) {
             corners[ring->face_count] = corner;
         }
@@ -132,7 +135,8 @@ bool mt_limit_ring_gather(const mt_limit_rings *rings, mt_index vertex, mt_index
     } while (after != start && after != corner);
     ring->closed = after == start && topology->twins[start] != start;
     if (!ring->closed) {
-        ring->ends[ring->face_count] = difference(rings, mt_subdivide_previous(topology, corner, 4), ring->center);
+        ring->ends[ring->face_count] =
+            difference(rings, mt_subdivide_previous(topology, corner, topology->face_size), ring->center);
     }
     return true;
 }
@@ -143,7 +147,9 @@ static mt_limit_spoke spoke_at(const mt_limit_rings *rings, mt_index vertex, mt_
         mt_limit_spoke boundary = {MT_SHARPNESS_INFINITE, MT_SHARPNESS_INFINITE, MT_SHARPNESS_INFINITE};
         return boundary;
     }
-    mt_index slot = rings->edge_slots ? rings->edge_slots[mt_subdivide_edge(rings->topology, side, 4)] : MT_NONE;
+    mt_index slot = rings->edge_slots
+                        ? rings->edge_slots[mt_subdivide_edge(rings->topology, side, rings->topology->face_size)]
+                        : MT_NONE;
     mt_limit_spoke spoke = {0, 0, 0};
     if (slot != MT_NONE) {
         const mt_sharp_edge *edge = &rings->sharp->edges[slot];
@@ -168,7 +174,7 @@ void mt_limit_rings_gather_sharp(mt_limit_rings *rings, mt_index number)
         rings->ring.spokes[i] = spoke_at(rings, vertex, rings->corners[i]);
     }
     if (!ring->closed) {
-        mt_index last = mt_subdivide_previous(topology, rings->corners[ring->face_count - 1], 4);
+        mt_index last = mt_subdivide_previous(topology, rings->corners[ring->face_count - 1], topology->face_size);
         rings->ring.spokes[ring->face_count] = spoke_at(rings, vertex, last);
     }
 }

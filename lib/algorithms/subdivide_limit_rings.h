@@ -9,7 +9,7 @@
 #define MT_LIMIT_SMALL_RING 16
 
 typedef struct mt_limit_rings {
-    const mt_subdivide_topology *topology; /* of quads, with a corner for each vertex */
+    const mt_subdivide_topology *topology; /* of quads, of triangles for Loop's scheme; a corner for each vertex */
     const mt_mesh *mesh;
     const mt_subdivide_sharp *sharp;
     const float *halves;      /* per spoke number its half's sharpness at the next level */

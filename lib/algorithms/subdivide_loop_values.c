@@ -44,7 +44,7 @@ MT_SUBDIVIDE_INLINE void triangle_edge_points(const mt_subdivide_loop *loop, mt_
     }
 }
 
-static double weight_of(mt_index valence)
+double mt_loop_weight(mt_index valence)
 {
     if (valence == 6) {
         return 0.0625;
@@ -68,7 +68,7 @@ MT_SUBDIVIDE_INLINE void inner_point(const mt_subdivide_loop *loop, mt_index ver
         valence++;
         corner = mt_subdivide_turn(topology, corner, 3);
     } while (corner != start);
-    double weight = weight_of(valence);
+    double weight = mt_loop_weight(valence);
     for (unsigned k = 0; k < width; k++) {
         double move = (sums[k].high + sums[k].low) * weight;
         store(loop, vertex, k, load(loop, loop->source, vertex, k, wide) + move, wide);

@@ -154,7 +154,7 @@ void compare(mt_context *context, const std::string &name, const mt_mesh *mesh, 
         mt_mesh_destroy(context, before);
         before = refined;
     }
-    if (before && options.level_count == levels && !triangles) {
+    if (before && options.level_count == levels) {
         compare_limit(context, name + ", limit", mesh, options, reference, match, tolerance);
     }
     mt_mesh_destroy(context, before);

@@ -1,10 +1,11 @@
-/* The limit of Catmull-Clark: a vertex goes to the same point, with the same normal, whichever level is asked for it,
- * and finer levels come near to both. The comparison with OpenSubdiv is in tests/oracle/test_opensubdiv.cpp. */
+/* The limit of Catmull-Clark and Loop: a vertex goes to the same point, with the same normal, whichever level is asked
+ * for it, and finer levels come near to both. The comparison with OpenSubdiv is in tests/oracle/test_opensubdiv.cpp. */
 #include "tests/support/cage.h"
 #include "tests/support/soup.h"
 #include "tests/support/unit.h"
 
 #include <meshtool/subdivide.h>
+#include <meshtool/triangulate.h>
 
 #include <math.h>
 #include <string.h>
@@ -19,6 +20,7 @@ typedef struct sharp_case {
     double crease, corner; /* sharpness of random edges and vertices; 0: none; below 0: of any, at random */
     bool chaikin, sheet;
     mt_subdivide_boundary boundary;
+    mt_subdivide_scheme scheme;
 } sharp_case;
 
 static const sharp_case cases[] = {
@@ -32,6 +34,10 @@ static const sharp_case cases[] = {
     {.name = "infinite corners", .corner = 10},
     {.name = "creases of any sharpness", .crease = -1, .corner = -1, .sheet = true},
     {.name = "Chaikin's creases", .crease = -1, .chaikin = true, .sheet = true},
+    {.name = "triangles", .scheme = MT_SUBDIVIDE_SCHEME_LOOP},
+    {.name = "triangles with a boundary", .scheme = MT_SUBDIVIDE_SCHEME_LOOP, .sheet = true},
+    {.name = "triangles and infinite creases", .scheme = MT_SUBDIVIDE_SCHEME_LOOP, .crease = 10},
+    {.name = "triangles and creases", .scheme = MT_SUBDIVIDE_SCHEME_LOOP, .crease = -1, .corner = -1, .sheet = true},
 };
 
 static double some_sharpness(test_random *random, double asked)
@@ -66,6 +72,7 @@ static void sharpen(mt_context *context, test_random *random, const sharp_case *
 static mt_mesh *limit_of(mt_context *context, const mt_mesh *mesh, const sharp_case *sharp, unsigned level_count)
 {
     mt_subdivide_options options = {.level_count = level_count, .limit = true, .boundary = sharp->boundary};
+    options.scheme = sharp->scheme;
     options.crease_method = sharp->chaikin ? MT_SUBDIVIDE_CREASES_CHAIKIN : MT_SUBDIVIDE_CREASES_NORMAL;
     mt_mesh *limit = NULL;
     if (mt_subdivide(context, mesh, &options, &limit) != MT_OK) {
@@ -94,9 +101,10 @@ static mt_vec3 normal_at(const mt_mesh *mesh, mt_index corner)
 
 static mt_vec3 face_normal(const mt_mesh *mesh, mt_index face)
 {
-    const mt_index *v = mesh->corner_vertices + 4 * (size_t)face;
+    const mt_index *v = mesh->corner_vertices + mesh->face_size * (size_t)face;
+    mt_index last = mesh->face_size - 1; /* of a triangle b is a side, too */
     mt_vec3 a = mt_vec3_subtract(mt_mesh_position(mesh, v[2]), mt_mesh_position(mesh, v[0]));
-    mt_vec3 b = mt_vec3_subtract(mt_mesh_position(mesh, v[3]), mt_mesh_position(mesh, v[1]));
+    mt_vec3 b = mt_vec3_subtract(mt_mesh_position(mesh, v[last]), mt_mesh_position(mesh, v[1]));
     return mt_vec3_normalize(mt_vec3_cross(a, b));
 }
 
@@ -114,7 +122,8 @@ static mt_index *count_infinite(mt_context *context, const mt_mesh *limit)
     for (mt_index corner = 0; corner < limit->corner_count; corner++) {
         if (pairs->next_side[corner] == corner) {
             infinite[limit->corner_vertices[corner]]++;
-            infinite[limit->corner_vertices[(corner & ~3u) | ((corner + 1) & 3)]]++;
+            mt_index begin = corner - corner % limit->face_size;
+            infinite[limit->corner_vertices[begin + (corner + 1 - begin) % limit->face_size]]++;
         }
     }
     for (mt_index i = 0; i < limit->crease_count; i++) {
@@ -144,7 +153,7 @@ static double expect_same_normals(const mt_mesh *first, const mt_mesh *later, un
         if (infinite[vertex] < 3 && !(error < NORMAL_TOLERANCE)) {
             fail_msg("the normal of vertex %u differs by %g", vertex, error);
         }
-        sum += infinite[vertex] < 3 ? apart(normal, face_normal(later, corner << (shift - 2))) : 0;
+        sum += infinite[vertex] < 3 ? apart(normal, face_normal(later, (corner << shift) / later->face_size)) : 0;
         count += infinite[vertex] < 3;
     }
     return sum / count;
@@ -176,6 +185,11 @@ static void test_levels_agree(void **state)
         mt_context *context = test_context();
         test_random random = {11 + i};
         mt_mesh *cage = test_cage(context, &random, 9, 7, !cases[i].sheet);
+        if (cases[i].scheme == MT_SUBDIVIDE_SCHEME_LOOP) {
+            mt_mesh *polygons = cage;
+            assert_int_equal(mt_mesh_triangulate(context, polygons, &cage), MT_OK);
+            mt_mesh_destroy(context, polygons);
+        }
         sharpen(context, &random, &cases[i], cage);
         expect_same_limit(context, &cases[i], cage);
         mt_mesh_destroy(context, cage);
@@ -206,14 +220,13 @@ static mt_mesh *pyramid(mt_context *context, mt_index valence)
 }
 
 /* The tip stays on its axis, with the axis as its normal, whether its ring is small or large. */
-static void test_valence(void **state)
+static void expect_tip(mt_subdivide_scheme scheme)
 {
-    (void)state;
     static const mt_index valences[] = {3, 4, 5, 6, 16, 17, 50, 1000};
     for (size_t i = 0; i < sizeof valences / sizeof *valences; i++) {
         mt_context *context = test_context();
         mt_mesh *mesh = pyramid(context, valences[i]);
-        static const sharp_case smooth = {.name = "pyramid"};
+        const sharp_case smooth = {.name = "pyramid", .scheme = scheme};
         mt_mesh *limit = limit_of(context, mesh, &smooth, 1), *later = limit_of(context, mesh, &smooth, 3);
         const mt_attribute *normals = normals_of(limit);
         mt_vec3 tip = mt_mesh_position(limit, valences[i]);
@@ -225,6 +238,13 @@ static void test_valence(void **state)
         mt_mesh_destroy(context, mesh);
         test_context_end(context);
     }
+}
+
+static void test_valence(void **state)
+{
+    (void)state;
+    expect_tip(MT_SUBDIVIDE_SCHEME_CATMULL_CLARK);
+    expect_tip(MT_SUBDIVIDE_SCHEME_LOOP);
 }
 
 /* The corner (1, 1, 1) has the neighbours (1, 1, -1) and so on, and the opposite corners (1, -1, -1) and so on: it goes
