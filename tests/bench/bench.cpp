@@ -114,9 +114,15 @@ void write_csv(const char *path)
 }
 
 const Case cases[] = {
-    {"reading", run_reading}, {"connectivity", run_connectivity},           {"one-ring", run_one_ring},
-    {"check", run_check},     {"self-intersection", run_self_intersection}, {"subdivision", run_subdivision},
+    {"reading", run_reading},
+    {"connectivity", run_connectivity},
+    {"one-ring", run_one_ring},
+    {"check", run_check},
+    {"self-intersection", run_self_intersection},
+    {"subdivision", run_subdivision},
     {"preview", run_preview},
+    {"rays", run_rays},
+    {"closest", run_closest},
 };
 
 int run_cases(int count, char **names)
@@ -201,7 +207,7 @@ int main(int argc, char **argv)
     if (result == 2) {
         std::fprintf(stderr,
                      "bench: no such case; there are reading, connectivity, one-ring, check, self-intersection, "
-                     "subdivision, preview\n");
+                     "subdivision, preview, rays, closest\n");
     }
     if (csv) {
         bench::write_csv(csv);

@@ -46,6 +46,8 @@ void run_check();
 void run_self_intersection();
 void run_subdivision();
 void run_preview();
+void run_rays();
+void run_closest();
 
 const std::vector<Row> &rows();
 
