@@ -119,10 +119,11 @@ MT_INLINE uint32_t filter_elements(const nearest_walk *walk, const float *rows, 
         float low = u < v ? u : v;
         low = w < low ? w : low;
         float divisor = length > 0x1p-60f ? length : 0x1p-60f;
-        float foot = (nx * ax + ny * ay + nz * az) / divisor;
+        float foot = (nx * ax + ny * ay + nz * az) / divisor, foot_square = foot * foot;
+        float certain = best + margin, uncertain = certain + root * wrong / divisor;
         bool is_outside = low < -(wrong * size + length * (margin * root + ROUNDING * size));
-        float square = is_outside ? side : foot * foot;
-        float reach = best + margin + (is_outside ? 0 : root * wrong / divisor);
+        float square = is_outside ? side : foot_square;
+        float reach = is_outside ? certain : uncertain;
         passes[lane] = square <= reach * reach ? 1 << lane : 0;
     }
     return mt_bits_of(passes);
