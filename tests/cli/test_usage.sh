@@ -8,7 +8,7 @@ run 0 --version
 prints "meshtool "
 run 2 subdivde x
 says 'unknown command "subdivde"; did you mean subdivide?'
-says "check-manifold, repair, info, topology, preview, subdivide, convert, generate, formats and help"
+says "check-manifold, repair, info, topology, preview, subdivide, distance, convert, generate, formats and help"
 run 2 frobnicate
 case $err in *"did you mean"*) fail "a far name is suggested" ;; *) pass ;; esac
 run 2 --json info
