@@ -200,5 +200,12 @@ self_test() {
 
 self_test || exit 1
 check_tree .
+# The top level holds these and dot files, nothing else.
+top=$(git ls-files 2>/dev/null | cut -d/ -f1 | sort -u | grep -vE '^\.' |
+    grep -vxE 'CMakeLists.txt|CMakePresets.json|CONTRIBUTING.md|LICENSE|README.md|cli|dev|formats|lib|meshes|tests' || true)
+if [[ $top ]]; then
+    echo "does not belong at the top level: $top"
+    exit 1
+fi
 echo "$include_count includes, $fail_count wrong"
 [[ $include_count -gt 0 && $fail_count == 0 ]]
