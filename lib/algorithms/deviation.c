@@ -98,6 +98,7 @@ static mt_status measure(mt_context *context, const mt_deviation_surface *a, con
     double tolerance = options->tolerance > 0 ? options->tolerance : DEFAULT_TOLERANCE * out->diagonal;
     double spacing = options->spacing > 0 ? options->spacing : DEFAULT_SPACING * out->diagonal;
     mt_deviation_job job = {.context = context, .from = a, .to = b, .spacing = spacing, .out = &out->a_to_b};
+    job.maximum_only = options->maximum_only;
     job.tolerance = fmax(tolerance, FINEST_TOLERANCE * out->diagonal);
     job.unit = mt_power_of_two_scale(out->diagonal);
     int part = mt_part_begin(context, "distances from the first mesh", NULL);

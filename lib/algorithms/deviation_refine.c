@@ -14,8 +14,8 @@
 
 #include <string.h>
 
-#define BATCH_SIZE 512
-#define GRAIN 16
+#define BATCH_SIZE 128
+#define GRAIN 8
 
 /* Pieces quartered at most: so many, and so many for each triangle. */
 #define WORK_LIMIT 1000000
@@ -115,15 +115,34 @@ static double limit_of(const search *s)
     return s->job->out->max + s->job->tolerance;
 }
 
+/* From the corners alone where they suffice; the middle is asked for when they do not, unless samples have it. */
+static double bound_triangle(const search *s, mt_index triangle)
+{
+    piece p = piece_of_triangle(s, triangle);
+    double nearest = 0, longest = 0;
+    for (int i = 0; i < 3; i++) {
+        if (p.corners[i].element == MT_NONE) {
+            return 0;
+        }
+        nearest = fmax(nearest, p.corners[i].distance);
+        longest = fmax(longest, mt_vec3_length(mt_vec3_subtract(p.shape.corners[(i + 1) % 3], p.shape.corners[i])));
+    }
+    double bound = nearest + COVER * longest;
+    if (bound <= limit_of(s)) {
+        return bound;
+    }
+    if (p.middle.element == MT_NONE) {
+        p.middle = mt_deviation_nearest(s->job->to, middle_of(&p.shape), p.corners[0].element);
+        s->job->centers[triangle] = p.middle;
+    }
+    return p.middle.element == MT_NONE ? 0 : bound_piece(s, &p, limit_of(s));
+}
+
 static void bound_triangles(void *user, uint64_t begin, uint64_t end)
 {
     search *s = user;
     for (uint64_t i = begin; i < end; i++) {
-        s->uppers[i] = 0;
-        if (s->job->centers[i].element != MT_NONE) {
-            piece p = piece_of_triangle(s, (mt_index)i);
-            s->uppers[i] = bound_piece(s, &p, limit_of(s));
-        }
+        s->uppers[i] = bound_triangle(s, (mt_index)i);
     }
 }
 
@@ -283,10 +302,23 @@ static bool keep_results(search *s)
     return true;
 }
 
+static void note_middle(search *s, mt_index triangle)
+{
+    mt_deviation_side *out = s->job->out;
+    if (s->job->centers[triangle].distance > out->max) {
+        mt_deviation_triangle shape = mt_deviation_triangle_of(s->job->from, triangle);
+        out->max = s->job->centers[triangle].distance;
+        out->from = middle_of(&shape);
+    }
+}
+
 static mt_status collect_triangles(search *s)
 {
     mt_index count = s->job->from->triangulation.triangle_count;
     mt_parallel_for(s->job->context, count, 1024, bound_triangles, s);
+    for (mt_index i = 0; i < count; i++) {
+        note_middle(s, i);
+    }
     for (mt_index i = 0; i < count; i++) {
         if (s->uppers[i] <= limit_of(s)) {
             s->pruned = fmax(s->pruned, s->uppers[i]);

@@ -147,6 +147,10 @@ static void sample_triangle(const mt_deviation_job *job, mt_index triangle, samp
         }
         note_maximum(sums, near[side].distance, t.corners[side]);
     }
+    if (job->maximum_only) {
+        job->centers[triangle] = (mt_deviation_near){NAN, MT_NONE};
+        return;
+    }
     const mt_vec3 middle = {1.0 / 3, 1.0 / 3, 1.0 / 3};
     mt_deviation_near center = sample_point(job, &t, middle, near[0].element, sums);
     job->centers[triangle] = center;
@@ -187,7 +191,7 @@ static void join_blocks(const mt_deviation_job *job, const sample_sums *blocks, 
     mt_deviation_side *out = job->out;
     out->max = all.max;
     out->from = all.at;
-    out->mean = all.distance / all.area / job->unit;
+    out->mean = all.distance / all.area / job->unit; /* NAN where there is no area, or only the maximum was asked for */
     out->rms = sqrt(all.square / all.area) / job->unit;
     out->normal_mean = all.normal_area > 0 ? all.normal / all.normal_area : NAN;
     out->normal_max = all.normal_area > 0 ? all.normal_max : NAN;

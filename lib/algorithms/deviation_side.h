@@ -22,9 +22,10 @@ typedef struct mt_deviation_job {
     mt_context *context;
     const mt_deviation_surface *from, *to;
     double tolerance, spacing;
+    bool maximum_only;
     double unit;                 /* power of two that brings the diagonal to 1: for squares and areas */
     mt_deviation_near *vertices; /* per vertex of `from` */
-    mt_deviation_near *centers;  /* per triangle of `from` its centroid's */
+    mt_deviation_near *centers;  /* per triangle of `from` its centroid's; MT_NONE: not known */
     mt_deviation_side *out;
 } mt_deviation_job;
 

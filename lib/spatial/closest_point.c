@@ -14,6 +14,9 @@
 /* Relative loss of a squared float distance: subtraction, square and two sums round by half a unit each. */
 #define BELOW 0.9999995f
 
+/* Brings a distance rounded to float, and its comparison, to the safe side. */
+#define ABOVE 1.000001f
+
 /* What rounding takes from the float distance to an element, in units of the reach (1 + the point's largest
  * coordinate): corners and point round by half of 2^-24 each, the arithmetic by some more. */
 #define DISTANCE_MARGIN 0x1p-21f
@@ -30,17 +33,11 @@ typedef struct nearest_walk {
     double distance; /* of the best, in space */
 } nearest_walk;
 
-static float above(double x)
-{
-    float f = (float)x;
-    return (double)f < x ? nextafterf(f, INFINITY) : f;
-}
-
 /* Nothing farther counts from now on; several squares have the same root. */
 static void bound(nearest_walk *walk, double distance)
 {
     walk->distance = distance;
-    walk->limit = above(distance * distance * (1 + 0x1p-50));
+    walk->limit = mt_round_up(distance * distance * (1 + 0x1p-50));
 }
 
 static void keep(nearest_walk *walk, mt_index number, const mt_element_distance *found)
@@ -87,13 +84,13 @@ MT_INLINE float side_square(float ax, float ay, float az, float ex, float ey, fl
     return x * x + y * y + z * z;
 }
 
-/* Bits of the elements that may be as near as the best: their float distance, less what it may be off, is not beyond
- * it. It is that of the foot unless that surely lies outside, which is never above the sides'. `wrong` is what the
+/* Lower bounds of the elements' distances, and bits of those not beyond the best: their float distance less what it may
+ * be off. It is that of the foot unless that surely lies outside, which is never above the sides'. `wrong` is what the
  * normal may be off, by its own rounding and by that of the corners; slivers become candidates by it. */
-MT_INLINE uint32_t filter_elements(const nearest_walk *walk, const float *rows, mt_index count)
+MT_INLINE uint32_t filter_elements(const nearest_walk *walk, const float *rows, mt_index count, float near[MT_WIDTH])
 {
     const float qx = walk->at[0], qy = walk->at[1], qz = walk->at[2];
-    const float best = sqrtf(walk->limit) * 1.000001f, margin = walk->margin;
+    const float best = (float)walk->distance * ABOVE, margin = walk->margin;
     const float *r[9];
     int32_t passes[MT_WIDTH];
     for (int i = 0; i < 9; i++) {
@@ -120,13 +117,23 @@ MT_INLINE uint32_t filter_elements(const nearest_walk *walk, const float *rows, 
         low = w < low ? w : low;
         float divisor = length > 0x1p-60f ? length : 0x1p-60f;
         float foot = (nx * ax + ny * ay + nz * az) / divisor, foot_square = foot * foot;
-        float certain = best + margin, uncertain = certain + root * wrong / divisor;
+        float uncertain = margin + root * wrong / divisor;
         bool is_outside = low < -(wrong * size + length * (margin * root + ROUNDING * size));
         float square = is_outside ? side : foot_square;
-        float reach = is_outside ? certain : uncertain;
-        passes[lane] = square <= reach * reach ? 1 << lane : 0;
+        near[lane] = sqrtf(square) - (is_outside ? margin : uncertain);
+        passes[lane] = near[lane] > best ? 0 : 1 << lane; /* NaN passes: infinities met */
     }
     return mt_bits_of(passes);
+}
+
+MT_INLINE int nearest_lane(const float near[MT_WIDTH], uint32_t bits)
+{
+    int nearest = __builtin_ctz(bits);
+    for (bits &= bits - 1; bits; bits &= bits - 1) {
+        int lane = __builtin_ctz(bits);
+        nearest = near[lane] < near[nearest] ? lane : nearest;
+    }
+    return nearest;
 }
 
 MT_INLINE void visit_leaf(nearest_walk *walk, uint32_t child)
@@ -136,9 +143,15 @@ MT_INLINE void visit_leaf(nearest_walk *walk, uint32_t child)
     }
     mt_index count = mt_surface_leaf_count(child);
     const float *rows = mt_leaf_rows(walk->tree, child);
-    uint32_t bits = filter_elements(walk, rows, count) & ((1u << count) - 1);
-    for (; bits; bits &= bits - 1) {
-        mt_index number = mt_leaf_number(rows, count, (mt_index)__builtin_ctz(bits));
+    float near[MT_WIDTH];
+    uint32_t bits = filter_elements(walk, rows, count, near) & ((1u << count) - 1);
+    while (bits) {
+        int lane = nearest_lane(near, bits);
+        bits &= ~(1u << lane);
+        if (near[lane] > (float)walk->distance * ABOVE) {
+            return;
+        }
+        mt_index number = mt_leaf_number(rows, count, (mt_index)lane);
         mt_element_distance found = mt_element_distance_to(walk->tree, number, walk->scaled);
         keep(walk, number, &found);
     }
@@ -230,8 +243,8 @@ static void start_walk(nearest_walk *walk, mt_vec3 point, const mt_closest_optio
     const double x[3] = {q.x, q.y, q.z};
     for (int axis = 0; axis < 3; axis++) {
         walk->at[axis] = (float)x[axis];
-        walk->high[axis] = above(x[axis]);
-        walk->low[axis] = -above(-x[axis]);
+        walk->high[axis] = mt_round_up(x[axis]);
+        walk->low[axis] = mt_round_down(x[axis]);
     }
     walk->scaled = mt_vec3_scale(point, walk->tree->space.scale);
     walk->margin = DISTANCE_MARGIN * (1 + (float)mt_vec3_max_abs(q));

@@ -1,33 +1,6 @@
 /* The boxes of a mesh's elements in the space of its rays, rounded outwards. */
 #include "lib/spatial/surface_tree.h"
 
-#include <string.h>
-
-/* The next float below or above; zero steps to the smallest subnormal on either side. Quicker than nextafterf. */
-static float step(float f, bool up)
-{
-    int32_t bits;
-    if (f == 0) {
-        return up ? 0x1p-149f : -0x1p-149f;
-    }
-    memcpy(&bits, &f, sizeof bits);
-    bits += (bits < 0) == up ? -1 : 1;
-    memcpy(&f, &bits, sizeof f);
-    return f;
-}
-
-static float round_down(double x)
-{
-    float f = (float)x;
-    return (double)f > x ? step(f, false) : f;
-}
-
-static float round_up(double x)
-{
-    float f = (float)x;
-    return (double)f < x ? step(f, true) : f;
-}
-
 static mt_index wire_size(const mt_mesh *mesh)
 {
     return mesh->wire_count ? mesh->wire_offsets[mesh->wire_count] : 0;
@@ -43,17 +16,8 @@ mt_surface_numbering mt_surface_number(const mt_mesh *mesh, const mt_triangulati
     return numbering;
 }
 
-mt_surface_element mt_surface_element_of(const mt_mesh *mesh, const mt_triangulation *triangulation,
-                                         const mt_surface_numbering *numbering, uint64_t number)
+mt_surface_element mt_surface_small_element(const mt_mesh *mesh, const mt_surface_numbering *numbering, uint64_t number)
 {
-    mt_surface_element element;
-    if (number < numbering->wires) {
-        for (mt_index side = 0; side < 3; side++) {
-            mt_index corner = mt_triangulation_corner(triangulation, (mt_index)number, side);
-            element.vertices[side] = mesh->corner_vertices[corner];
-        }
-        return element;
-    }
     mt_index a, b;
     if (number < numbering->points) {
         uint64_t at = number - numbering->wires, next = number + 1 < numbering->points ? at + 1 : at;
@@ -80,7 +44,7 @@ static bool box_element(const mt_surface_tree *tree, mt_surface_element element,
         mt_vec3 p = mt_ray_space_point(&tree->space, mt_mesh_position(tree->mesh, element.vertices[i]));
         const double x[3] = {p.x, p.y, p.z};
         for (int axis = 0; axis < 3; axis++) {
-            float low = round_down(x[axis]), high = round_up(x[axis]);
+            float low = mt_round_down(x[axis]), high = mt_round_up(x[axis]);
             box->lower[axis] = i && box->lower[axis] < low ? box->lower[axis] : low;
             box->upper[axis] = i && box->upper[axis] > high ? box->upper[axis] : high;
         }

@@ -4,6 +4,8 @@
 
 #include <meshtool/surface_tree.h>
 
+#include <string.h>
+
 #define MT_WIDTH 8
 
 /* Elements of a leaf at most: one vector operation tests them all. */
@@ -57,8 +59,47 @@ mt_surface_numbering mt_surface_number(const mt_mesh *mesh, const mt_triangulati
 typedef struct mt_surface_element {
     mt_index vertices[3];
 } mt_surface_element;
-mt_surface_element mt_surface_element_of(const mt_mesh *mesh, const mt_triangulation *triangulation,
-                                         const mt_surface_numbering *numbering, uint64_t number);
+mt_surface_element mt_surface_small_element(const mt_mesh *mesh, const mt_surface_numbering *numbering,
+                                            uint64_t number);
+
+static inline mt_surface_element mt_surface_element_of(const mt_mesh *mesh, const mt_triangulation *triangulation,
+                                                       const mt_surface_numbering *numbering, uint64_t number)
+{
+    if (number >= numbering->wires) {
+        return mt_surface_small_element(mesh, numbering, number);
+    }
+    mt_surface_element element;
+    for (mt_index side = 0; side < 3; side++) {
+        mt_index corner = mt_triangulation_corner(triangulation, (mt_index)number, side);
+        element.vertices[side] = mesh->corner_vertices[corner];
+    }
+    return element;
+}
+
+/* The next float below or above; zero steps to the smallest subnormal on either side. Quicker than nextafterf. */
+static inline float mt_float_step(float f, bool up)
+{
+    int32_t bits;
+    if (f == 0) {
+        return up ? 0x1p-149f : -0x1p-149f;
+    }
+    memcpy(&bits, &f, sizeof bits);
+    bits += (bits < 0) == up ? -1 : 1;
+    memcpy(&f, &bits, sizeof f);
+    return f;
+}
+
+static inline float mt_round_down(double x)
+{
+    float f = (float)x;
+    return (double)f > x ? mt_float_step(f, false) : f;
+}
+
+static inline float mt_round_up(double x)
+{
+    float f = (float)x;
+    return (double)f < x ? mt_float_step(f, true) : f;
+}
 
 struct mt_surface_tree {
     const mt_mesh *mesh;

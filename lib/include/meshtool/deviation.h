@@ -17,6 +17,7 @@ typedef struct mt_deviation_options {
     double tolerance; /* of the maxima, in the meshes' units; 0: 1e-4 of the diagonal */
     double spacing; /* of the samples for mean, rms and normals; 0: 1/100 of the diagonal. Triangles are sampled once at
                        least, whatever their size */
+    bool maximum_only;   /* leave out mean, rms and normals, which are then NAN: fewer searches */
     bool keep_distances; /* fill vertex_distances */
 } mt_deviation_options;
 
