@@ -128,6 +128,9 @@ static double bound_triangle(const search *s, mt_index triangle)
         longest = fmax(longest, mt_vec3_length(mt_vec3_subtract(p.shape.corners[(i + 1) % 3], p.shape.corners[i])));
     }
     double bound = nearest + COVER * longest;
+    for (int i = 0; i < 3 && bound > limit_of(s); i++) {
+        bound = fmin(bound, convex_bound(s, &p, p.corners[i].element, bound));
+    }
     if (bound <= limit_of(s)) {
         return bound;
     }
