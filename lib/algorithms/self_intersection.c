@@ -7,6 +7,7 @@
  *
  * Cost: the tree (44 bytes a triangle), the positions in double where they need scaling, and the pairs. A mesh in which
  * very many triangles overlap has that many pairs: MT_ERROR_TOO_LARGE past 2^31. */
+#include "lib/algorithms/flat_stars.h"
 #include "lib/algorithms/triangle_plane.h"
 
 #include <meshtool/aabb_tree.h>
@@ -31,18 +32,26 @@ typedef struct search {
     const mt_vec3 *points; /* scaled positions, the mesh's own where they are fit */
     mt_vec3 *scaled;       /* NULL when those are */
     double scale;
-    double reach;  /* no two points differ more in a coordinate */
-    uint8_t *skip; /* per triangle: of zero area */
+    double reach;     /* no two points differ more in a coordinate */
+    uint8_t *skip;    /* per triangle: of zero area */
+    uint8_t *facings; /* per triangle, see flat_stars.h */
+    uint8_t *flat;    /* per vertex: no two of its triangles intersect */
     bool only_first;
     atomic_bool found;
     pair_list lists[MT_PAIR_TASKS_MAXIMUM];
 } search;
 
-static void load_triangle(const search *job, mt_index triangle, indexed_triangle *out)
+static void load_vertices(const search *job, mt_index triangle, mt_index vertices[3])
 {
     for (mt_index side = 0; side < 3; side++) {
-        mt_index corner = mt_triangulation_corner(job->triangulation, triangle, side);
-        out->vertices[side] = job->mesh->corner_vertices[corner];
+        vertices[side] = job->mesh->corner_vertices[mt_triangulation_corner(job->triangulation, triangle, side)];
+    }
+}
+
+static void load_triangle(const search *job, mt_index triangle, indexed_triangle *out)
+{
+    load_vertices(job, triangle, out->vertices);
+    for (int side = 0; side < 3; side++) {
         out->points[side] = job->points[out->vertices[side]];
     }
 }
@@ -102,13 +111,14 @@ static bool find_points(search *job)
     return job->scaled;
 }
 
-static void mark_zero_area(void *user, uint64_t begin, uint64_t end)
+static void judge_triangles(void *user, uint64_t begin, uint64_t end)
 {
     search *job = user;
     for (uint64_t i = begin; i < end; i++) {
         indexed_triangle triangle;
         load_triangle(job, (mt_index)i, &triangle);
-        job->skip[i] = mt_collinear(triangle.points[0], triangle.points[1], triangle.points[2]);
+        job->facings[i] = triangle_facing(triangle.points);
+        job->skip[i] = !job->facings[i] && mt_collinear(triangle.points[0], triangle.points[1], triangle.points[2]);
     }
 }
 
@@ -138,36 +148,59 @@ static bool keep_pair(search *job, pair_list *list, mt_index face, mt_index othe
     return true;
 }
 
-/* False when there is no memory for the pair. */
-static bool decide_pair(search *job, mt_index task, mt_primitive_pair pair, const indexed_triangle *a,
-                        const indexed_triangle *b)
+static bool plane_parts(const search *job, const indexed_triangle *triangle, const indexed_triangle *other)
 {
-    triangle_plane plane = triangle_plane_make(b->points, job->reach);
+    triangle_plane plane = triangle_plane_make(triangle->points, job->reach);
+    return triangle_plane_parts(&plane, triangle, other);
+}
+
+/* Most pairs are decided by the plane of one. False when there is no memory for the pair. */
+static bool decide_pair(search *job, mt_index task, mt_primitive_pair pair)
+{
     mt_index face = mt_triangulation_face(job->triangulation, pair.a);
     mt_index other = mt_triangulation_face(job->triangulation, pair.b);
-    if (face == other || triangle_plane_parts(&plane, b, a) || !mt_triangles_intersect(a, b)) {
+    indexed_triangle a, b;
+    load_triangle(job, pair.a, &a);
+    load_triangle(job, pair.b, &b);
+    if (face == other || plane_parts(job, &a, &b) || plane_parts(job, &b, &a) || !mt_triangles_intersect(&a, &b)) {
         return true;
     }
     atomic_store_explicit(&job->found, true, memory_order_relaxed);
     return keep_pair(job, &job->lists[task], face, other);
 }
 
-/* Pairs of one triangle come one after the other; its plane rules out most of them. */
+/* Whether two triangles share a vertex around which nothing intersects, by the first one's flat vertices. */
+static bool share_flat_vertex(const mt_index flat[3], const mt_index vertices[3])
+{
+    bool shared = false;
+    for (int i = 0; i < 3; i++) {
+        shared |= (flat[i] == vertices[0]) | (flat[i] == vertices[1]) | (flat[i] == vertices[2]);
+    }
+    return shared;
+}
+
+static void keep_flat(const search *job, const mt_index vertices[3], mt_index flat[3])
+{
+    for (int i = 0; i < 3; i++) {
+        flat[i] = job->flat[vertices[i]] ? vertices[i] : MT_NONE;
+    }
+}
+
+/* Pairs of one triangle come one after the other, and most share a flat vertex. */
 static bool decide_pairs(void *user, mt_index task, const mt_primitive_pair *pairs, size_t count)
 {
     search *job = user;
     if (job->only_first && atomic_load_explicit(&job->found, memory_order_relaxed)) {
         return false;
     }
-    indexed_triangle a, b;
-    triangle_plane plane;
+    mt_index flat[3], vertices[3];
     for (size_t i = 0; i < count; i++) {
         if (i == 0 || pairs[i].a != pairs[i - 1].a) {
-            load_triangle(job, pairs[i].a, &a);
-            plane = triangle_plane_make(a.points, job->reach);
+            load_vertices(job, pairs[i].a, vertices);
+            keep_flat(job, vertices, flat);
         }
-        load_triangle(job, pairs[i].b, &b);
-        if (!triangle_plane_parts(&plane, &a, &b) && !decide_pair(job, task, pairs[i], &a, &b)) {
+        load_vertices(job, pairs[i].b, vertices);
+        if (!share_flat_vertex(flat, vertices) && !decide_pair(job, task, pairs[i])) {
             return false;
         }
     }
@@ -227,8 +260,12 @@ static mt_status search_with_tree(search *job, mt_self_intersections *out)
 {
     mt_context *context = job->context;
     mt_aabb_tree *tree;
-    mt_parallel_for(context, job->triangulation->triangle_count, 16384, mark_zero_area, job);
-    mt_status status = mt_aabb_tree_create(context, job->mesh, job->triangulation, job->skip, &tree);
+    mt_parallel_for(context, job->triangulation->triangle_count, 16384, judge_triangles, job);
+    mt_status status = mt_find_flat_stars(context, job->mesh, job->triangulation, job->points, job->facings, job->flat);
+    if (status != MT_OK) {
+        return status;
+    }
+    status = mt_aabb_tree_create(context, job->mesh, job->triangulation, job->skip, &tree);
     if (status != MT_OK) {
         return status;
     }
@@ -256,10 +293,15 @@ static mt_status run_search(search *job, mt_self_intersections *out)
     job->triangulation = &triangulation;
     choose_scale(job);
     job->skip = mt_allocate(context, triangulation.triangle_count);
-    status = job->skip && find_points(job) ? search_with_tree(job, out) : MT_ERROR_OUT_OF_MEMORY;
+    job->facings = mt_allocate(context, triangulation.triangle_count);
+    job->flat = mt_allocate(context, job->mesh->vertex_count);
+    bool ready = job->skip && job->facings && job->flat && find_points(job);
+    status = ready ? search_with_tree(job, out) : MT_ERROR_OUT_OF_MEMORY;
     for (size_t task = 0; task < MT_PAIR_TASKS_MAXIMUM; task++) {
         mt_free(context, job->lists[task].pairs);
     }
+    mt_free(context, job->flat);
+    mt_free(context, job->facings);
     mt_free(context, job->skip);
     mt_free(context, job->scaled);
     mt_triangulation_release(context, &triangulation);
