@@ -3,10 +3,12 @@
  * Positions are first scaled by a power of two, which is exact, so that the predicates' floating-point filter works on
  * meshes of any size; where that would push a coordinate below the normal numbers they are left as they are, and the
  * predicates decide the slow way. Each task keeps the pairs that it finds; the whole is sorted at the end, so the
- * answer does not depend on threads.
+ * answer does not depend on threads. Most triangles whose boxes overlap are neighbours around a vertex, and at most
+ * vertices it is plain that no neighbours intersect (flat_stars.h), so few pairs need a test.
  *
- * Cost: the tree (44 bytes a triangle), the positions in double where they need scaling, and the pairs. A mesh in which
- * very many triangles overlap has that many pairs: MT_ERROR_TOO_LARGE past 2^31. */
+ * Cost: the stars (24 bytes a triangle) and then the tree (44 bytes a triangle), the positions in double where they
+ * need scaling, and the pairs. A mesh in which very many triangles overlap has that many pairs: MT_ERROR_TOO_LARGE past
+ * 2^31. */
 #include "lib/algorithms/flat_stars.h"
 #include "lib/algorithms/triangle_plane.h"
 

@@ -70,6 +70,68 @@ static void triangles_that_share_an_edge_intersect_when_folded_flat(void **state
     assert_int_equal(pairs_of_two(sharp, 1, 0, 3), 0);
 }
 
+#define STAR_TRIANGLES_MAXIMUM 16
+
+/* Rim vertices 1 to the count around vertex 0, each 45, 90 or 135 degrees after the one before, which close after one
+ * turn or two; at any height, seen along any axis from either side. Returns how many. */
+static mt_index random_star(test_random *random, double positions[3 * (STAR_TRIANGLES_MAXIMUM + 1)])
+{
+    static const int compass[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+    uint64_t turns = 1 + test_random_below(random, 2), axis = test_random_below(random, 3);
+    int flip = test_random_below(random, 2) ? 1 : -1;
+    mt_index count = 0;
+    memset(positions, 0, 3 * sizeof *positions);
+    for (uint64_t at = 0; at < 8 * turns; at += 1 + test_random_below(random, 3)) {
+        double *to = positions + 3 * (size_t)++count;
+        int radius = 1 + (int)test_random_below(random, 3);
+        to[(axis + 1) % 3] = radius * compass[at % 8][0];
+        to[(axis + 2) % 3] = flip * radius * compass[at % 8][1];
+        to[axis] = (double)test_random_below(random, 5) - 2;
+    }
+    return count;
+}
+
+/* Alone, two triangles make no closed star: their verdict comes from the exact test. */
+static uint64_t pairs_by_twos(mt_context *context, mt_index count, const double *positions, const mt_index *faces)
+{
+    uint64_t pairs = 0;
+    for (mt_index i = 0; i < count; i++) {
+        for (mt_index j = 0; j < i; j++) {
+            mt_index two[8];
+            memcpy(two, faces + 4 * (size_t)i, 4 * sizeof *two);
+            memcpy(two + 4, faces + 4 * (size_t)j, 4 * sizeof *two);
+            mt_mesh *mesh = test_mesh(context, count + 1, positions, 2, two);
+            pairs += count_pairs(context, mesh);
+            mt_mesh_destroy(context, mesh);
+        }
+    }
+    return pairs;
+}
+
+static void stars_that_wind_once_or_twice_intersect_where_their_pairs_do(void **state)
+{
+    (void)state;
+    test_random random = {19};
+    uint64_t clean = 0, crossed = 0;
+    for (int round = 0; round < 500; round++) {
+        mt_context *context = test_context_with_threads(1);
+        double positions[3 * (STAR_TRIANGLES_MAXIMUM + 1)];
+        mt_index faces[4 * STAR_TRIANGLES_MAXIMUM], count = random_star(&random, positions);
+        for (mt_index i = 0; i < count; i++) {
+            const mt_index face[] = {3, 0, 1 + i, 1 + (i + 1) % count};
+            memcpy(faces + 4 * (size_t)i, face, sizeof face);
+        }
+        mt_mesh *mesh = test_mesh(context, count + 1, positions, count, faces);
+        uint64_t expected = pairs_by_twos(context, count, positions, faces);
+        assert_int_equal(count_pairs(context, mesh), expected);
+        clean += expected == 0;
+        crossed += expected > 0;
+        mt_mesh_destroy(context, mesh);
+        test_context_end(context);
+    }
+    assert_true(clean > 50 && crossed > 50);
+}
+
 static void duplicates_zero_areas_and_poisoned_triangles_take_no_part(void **state)
 {
     (void)state;
@@ -242,6 +304,7 @@ int main(void)
         cmocka_unit_test(triangles_that_share_nothing_intersect_at_any_contact),
         cmocka_unit_test(triangles_that_share_a_vertex_intersect_by_an_opposite_edge),
         cmocka_unit_test(triangles_that_share_an_edge_intersect_when_folded_flat),
+        cmocka_unit_test(stars_that_wind_once_or_twice_intersect_where_their_pairs_do),
         cmocka_unit_test(duplicates_zero_areas_and_poisoned_triangles_take_no_part),
         cmocka_unit_test(pairs_do_not_depend_on_size_or_threads),
         cmocka_unit_test(the_tree_gives_every_overlapping_pair_once),
