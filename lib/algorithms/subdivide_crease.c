@@ -61,6 +61,7 @@ mt_status mt_subdivide_creases_create(mt_context *context, mt_subdivide_state *s
                                            &state->sharp_vertex_count);
     }
     if (status == MT_OK) {
+        input.asked_crease_count = state->cut ? state->cut->asked_crease_count : input.crease_count;
         input.creases = creases;
         input.vertices = state->sharp_vertices;
         input.vertex_count = state->sharp_vertex_count;
@@ -82,13 +83,16 @@ static mt_status finish_edges(mt_context *context, const mt_subdivide_state *sta
     for (mt_index edge = 0; edge < sharp->edge_count; edge++) {
         mt_index side = sharp->edges[edge].side;
         mt_index end = mt_subdivide_next(topology, side, topology->face_size);
-        result->creases[edge] = (mt_edge_value){topology->corner_vertices[side], topology->corner_vertices[end],
-                                                (double)sharp->edges[edge].sharpness};
+        mt_edge_value crease = {topology->corner_vertices[side], topology->corner_vertices[end],
+                                (double)sharp->edges[edge].sharpness};
+        if (!sharp->edges[edge].implied) {
+            result->creases[result->crease_count++] = crease;
+        }
     }
     if (sharp->missing_count) {
-        memcpy(result->creases + sharp->edge_count, sharp->missing, sharp->missing_count * sizeof *sharp->missing);
+        memcpy(result->creases + result->crease_count, sharp->missing, sharp->missing_count * sizeof *sharp->missing);
+        result->crease_count += sharp->missing_count;
     }
-    result->crease_count = (mt_index)count;
     return MT_OK;
 }
 
@@ -99,7 +103,8 @@ static mt_status finish_vertices(mt_context *context, const mt_subdivide_state *
     if (!result->sharp_vertices) {
         return mt_context_error(context)->status;
     }
-    for (mt_index i = 0; i < state->sharp_vertex_count; i++) {
+    mt_index asked_count = state->cut ? state->cut->asked_corner_count : state->sharp_vertex_count;
+    for (mt_index i = 0; i < asked_count; i++) {
         float sharpness = (float)state->sharp_vertices[i].value;
         for (unsigned level = 0; level < level_count; level++) {
             sharpness = mt_sharpness_next(sharpness);

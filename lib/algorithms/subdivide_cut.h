@@ -14,10 +14,10 @@ typedef struct mt_cut_side {
 } mt_cut_side;
 
 typedef struct mt_subdivide_cut {
-    mt_mesh *mesh;         /* cut apart, with all that was asked to be sharp; the cut's */
-    mt_index *sources;     /* per vertex of it the one that it is a copy of */
-    mt_index source_count; /* vertices before the cut */
-    mt_index edge_count;   /* shared edges at the level in work */
+    mt_mesh *mesh;                                   /* cut apart, with all that was asked to be sharp; the cut's */
+    mt_index *sources;                               /* per vertex of it the one that it is a copy of */
+    mt_index asked_crease_count, asked_corner_count; /* of the mesh's: those after are implied by the cut */
+    mt_index edge_count;                             /* shared edges at the level in work */
     mt_index side_count;
     mt_cut_side *sides;
     uint64_t join_count, join_room;

@@ -158,9 +158,11 @@ mt_status mt_subdivide_cut_create(mt_context *context, const mt_mesh *mesh, cons
                                   const mt_subdivide_options *settings, mt_subdivide_cut *cut)
 {
     cutter c = {.mesh = mesh, .pairs = pairs, .cut = cut};
-    *cut = (mt_subdivide_cut){.source_count = mesh->vertex_count};
+    *cut = (mt_subdivide_cut){0};
     mt_status status = cut_mesh(context, mesh, pairs, settings, cut);
     if (status == MT_OK) {
+        cut->asked_crease_count = cut->mesh->crease_count;
+        cut->asked_corner_count = cut->mesh->sharp_vertex_count;
         status = mt_edge_pairs_create(context, cut->mesh, &c.cut_pairs);
     }
     if (status == MT_OK) {

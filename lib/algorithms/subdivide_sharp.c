@@ -160,7 +160,7 @@ static void refine_edges(const mt_subdivide_topology *topology, const mt_subdivi
             float sharpness = halves[2 * edge + end];
             images[2 * edge + end] = sharpness > 0 ? next->edge_count : MT_NONE;
             if (sharpness > 0) {
-                mt_sharp_edge half = {sides[end], sharpness, sharp->edges[edge].boundary};
+                mt_sharp_edge half = {sides[end], sharpness, sharp->edges[edge].boundary, sharp->edges[edge].implied};
                 next->edges[next->edge_count++] = half;
             }
         }

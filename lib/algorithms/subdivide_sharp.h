@@ -11,6 +11,7 @@ typedef struct mt_sharp_edge {
     mt_index side; /* a side of it: of the two ends, 0 is the side's vertex, 1 the next corner's */
     float sharpness;
     bool boundary; /* then infinitely sharp, whatever its sharpness, which is only passed on */
+    bool implied;  /* by what the mesh is, not asked for: not to be told of in the result */
 } mt_sharp_edge;
 
 typedef struct mt_sharp_vertex {
@@ -57,6 +58,7 @@ typedef struct mt_subdivide_patches {
 /* What is given as sharp at level 0; later ones of the same edge or vertex replace earlier ones. */
 typedef struct mt_sharp_input {
     mt_index crease_count, vertex_count;
+    mt_index asked_crease_count; /* those after them are implied */
     const mt_edge_value *creases;
     const mt_vertex_value *vertices;
     bool corners; /* vertices of one face are infinitely sharp too */

@@ -88,7 +88,8 @@ static void list_edges(const mt_subdivide_topology *topology, const mt_sharp_inp
         mt_index *slot = &tables->edge_slots[mt_subdivide_edge(topology, side, topology->face_size)];
         *slot = *slot == MT_NONE ? sharp->edge_count++ : *slot;
         float sharpness = crease->value > 0 ? (float)crease->value : 0;
-        sharp->edges[*slot] = (mt_sharp_edge){side, sharpness, topology->twins[side] == side};
+        bool implied = i >= input->asked_crease_count;
+        sharp->edges[*slot] = (mt_sharp_edge){side, sharpness, topology->twins[side] == side, implied};
     }
     mt_index count = 0;
     for (mt_index edge = 0; edge < sharp->edge_count; edge++) {

@@ -217,6 +217,7 @@ static void test_shared_edges(void **state)
     mt_mesh *refined = subdivide(context, book, &options);
     assert_int_equal(refined->face_count, 3 * 64);
     assert_int_equal(refined->vertex_count, 3 * 9 * 9 - 2 * 9);
+    assert_int_equal(refined->crease_count + refined->sharp_vertex_count, 0);
     mt_edge_pairs *pairs = NULL;
     assert_int_equal(mt_edge_pairs_create(context, refined, &pairs), MT_OK);
     assert_int_equal(pairs->non_manifold_count, 8);
