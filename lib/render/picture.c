@@ -37,7 +37,8 @@ static void stroke_narrow(const void *user, mt_index number, uint32_t tile_y, mt
     mt_stroke_narrow((const mt_stroke_set *)user, number, tile_y, row);
 }
 
-static mt_status sort(mt_context *context, mt_picture *picture)
+/* frame: the one whose samples reach farthest to the sides of pixels. */
+static mt_status sort(mt_context *context, mt_picture *picture, const mt_frame *frame)
 {
     uint64_t count = (uint64_t)picture->frame->model->triangulation.triangle_count + picture->strokes.count;
     if (!mt_count_fits(count) || !mt_count_fits(2 * (uint64_t)picture->marks.count)) {
@@ -46,7 +47,7 @@ static mt_status sort(mt_context *context, mt_picture *picture)
     const mt_camera *camera = &picture->frame->camera;
     int part = mt_part_begin(context, "tile lists", "triangles, lines and dots sorted by 32 x 32 pixels");
     mt_index triangle_count = picture->rays ? 0 : picture->frame->model->triangulation.triangle_count;
-    const mt_binned binned[] = {{picture->frame, triangle_count, triangle_range, triangle_narrow},
+    const mt_binned binned[] = {{frame, triangle_count, triangle_range, triangle_narrow},
                                 {&picture->strokes, picture->strokes.count, stroke_range, stroke_narrow},
                                 {&picture->marks, picture->marks.count, stroke_range, stroke_narrow}};
     mt_bins *bins[] = {&picture->triangle_bins, &picture->stroke_bins, &picture->mark_bins};
@@ -225,18 +226,12 @@ static mt_status draw_task_run(mt_context *context, draw_task *task, mt_picture 
     return status;
 }
 
-static mt_status draw(mt_context *context, mt_picture *picture)
+static mt_status draw(mt_context *context, mt_picture *picture, const mt_frame *fine_frame)
 {
     draw_task task = {.context = context, .picture = picture};
-    mt_frame fine_frame;
-    mt_picture fine;
-    if (picture->fine_samples > 0) {
-        fine_frame = *picture->frame;
-        fine_frame.sampling = mt_sampling_make(picture->fine_samples);
-        fine = *picture;
-        fine.frame = fine.strokes.frame = fine.marks.frame = &fine_frame;
-        task.fine = &fine;
-    }
+    mt_picture fine = *picture;
+    fine.frame = fine.strokes.frame = fine.marks.frame = fine_frame;
+    task.fine = picture->fine_samples > 0 ? &fine : NULL;
     int part = picture->rays ? mt_part_begin(context, "rays and shading", "a ray for each sample, asked for")
                              : mt_part_begin(context, "depth buffer and shading",
                                              "tile by tile, once for each triangle in a pixel");
@@ -248,9 +243,13 @@ static mt_status draw(mt_context *context, mt_picture *picture)
 
 mt_status mt_picture_draw(mt_context *context, mt_picture *picture)
 {
-    mt_status status = sort(context, picture);
+    mt_frame fine = *picture->frame;
+    if (picture->fine_samples > 0) {
+        fine.sampling = mt_sampling_make(picture->fine_samples);
+    }
+    mt_status status = sort(context, picture, &fine);
     if (status == MT_OK) {
-        status = draw(context, picture);
+        status = draw(context, picture, &fine);
     }
     mt_bins_release(context, &picture->triangle_bins);
     mt_bins_release(context, &picture->stroke_bins);
