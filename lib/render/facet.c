@@ -173,7 +173,8 @@ static bool light_small(const mt_look *look, double size, mt_vec3 eye, mt_facet 
 {
     static const double middle[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
     const mt_vec3 *n = facet->normals, *c = facet->colors;
-    if (size >= SMALL_SIZE || (size >= TINY_SIZE && (!facet->one_color || look->shadows))) {
+    bool varies = !facet->one_color || look->shadows;
+    if (size >= SMALL_SIZE || (size >= TINY_SIZE && varies) || look->paint == MT_PAINT_DEPTH) {
         return false;
     }
     mt_vec3 normal = unit_or(mt_vec3_add(mt_vec3_add(n[0], n[1]), n[2]), eye);

@@ -82,17 +82,17 @@ __attribute__((noinline)) static void settle_lanes(const mt_frame *frame, mt_til
 
 /* Stores the triangle in the samples of a group where it is clearly inside and nearest; returns, a bit each, those that
  * are in doubt. */
-MT_INLINE unsigned store_group(const depth_setup *s, vector8i maybe, vector8i inside, vector8f near, float *depths,
-                               mt_index *numbers)
+MT_INLINE unsigned store_group(const depth_setup *s, const vector8i *maybe, const vector8i *inside,
+                               const vector8f *near, float *depths, mt_index *numbers)
 {
     vector8f *old = (vector8f *)depths;
     vector8i *old_number = (vector8i *)numbers;
-    vector8f nearer = near - *old, band = *old * DEPTH_BAND;
-    vector8i wins = inside & (nearer > band);
-    vector8i doubt = maybe & ~wins & (nearer >= -band);
-    *old = (vector8f)(((vector8i)near & wins) | ((vector8i)*old & ~wins));
+    vector8f nearer = *near - *old, band = *old * DEPTH_BAND;
+    vector8i wins = *inside & (nearer > band);
+    vector8i doubt = *maybe & ~wins & (nearer >= -band);
+    *old = (vector8f)(((vector8i)*near & wins) | ((vector8i)*old & ~wins));
     *old_number = ((int32_t)s->number & wins) | (*old_number & ~wins);
-    return mt_any_lane(doubt) ? mt_lane_bits(doubt) : 0;
+    return mt_any_lane(&doubt) ? mt_lane_bits(&doubt) : 0;
 }
 
 /* The least depth of a pixel's samples: nothing farther can be seen there. */
@@ -171,9 +171,9 @@ MT_INLINE void draw_small_pixel(const mt_frame *frame, mt_tile *tile, const smal
         vector8i maybe = (e0 >= 0.0F) & (e1 >= 0.0F) & (e2 >= 0.0F);
         vector8i inside = (e0 > s->doubt[0]) & (e1 > s->doubt[1]) & (e2 > s->doubt[2]);
         inside &= s->depth.plane.vague ? 0 : -1;
+        vector8f near = depth + at->depths[g];
         size_t first = lane + MT_GROUP_SIZE * g;
-        unsigned doubt =
-            store_group(&s->depth, maybe, inside, depth + at->depths[g], tile->depths + first, tile->numbers + first);
+        unsigned doubt = store_group(&s->depth, &maybe, &inside, &near, tile->depths + first, tile->numbers + first);
         if (__builtin_expect(doubt != 0, 0)) {
             settle_lanes(frame, tile, s->depth.number, (uint32_t)x, (uint32_t)y, MT_GROUP_SIZE * g, doubt);
         }
@@ -237,7 +237,7 @@ MT_INLINE void draw_large_pixel(const mt_frame *frame, mt_tile *tile, const larg
         inside &= s->depth.plane.vague ? 0 : -1;
         vector8f near = depth + (s->depth.slope_x * xs[g] + s->depth.slope_y * ys[g]);
         size_t first = lane + MT_GROUP_SIZE * g;
-        unsigned doubt = store_group(&s->depth, maybe, inside, near, tile->depths + first, tile->numbers + first);
+        unsigned doubt = store_group(&s->depth, &maybe, &inside, &near, tile->depths + first, tile->numbers + first);
         if (__builtin_expect(doubt != 0, 0)) {
             settle_lanes(frame, tile, s->depth.number, (uint32_t)x, (uint32_t)y, MT_GROUP_SIZE * g, doubt);
         }

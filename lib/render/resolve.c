@@ -103,7 +103,7 @@ MT_INLINE uint64_t samples_of(const mt_index *numbers, unsigned group_count, mt_
     uint64_t samples = 0;
     for (unsigned g = 0; g < group_count; g++) {
         vector8i here = *(const vector8i *)(numbers + MT_GROUP_SIZE * g) == (int32_t)number;
-        samples |= (uint64_t)mt_lane_bits(here) << (MT_GROUP_SIZE * g);
+        samples |= (uint64_t)mt_lane_bits(&here) << (MT_GROUP_SIZE * g);
     }
     return samples;
 }
