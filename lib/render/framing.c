@@ -109,7 +109,9 @@ static void place_eye(mt_camera *camera, const double reach[REACH_COUNT], bool c
     double width = fmax(reach[TO_RIGHT] - x, reach[TO_LEFT] + x),
            height = fmax(reach[TO_TOP] - y, reach[TO_BOTTOM] + y);
     double z = fmax(width / (FILL * camera->half_width), height / (FILL * camera->half_height));
-    move_eye(camera, x, y, -fmax(z, reach[TO_FRONT] + CLEARANCE));
+    double tangent = fmin(camera->half_width, camera->half_height);
+    double clearance = CLEARANCE * fmin(1.0, MT_USUAL_TANGENT / tangent); /* wide angles come nearer */
+    move_eye(camera, x, y, -fmax(z, reach[TO_FRONT] + clearance));
 }
 
 /* The extent that shows all from a given eye, unless that is too wide. */
