@@ -117,36 +117,63 @@ static bool is_blank(const mt_picture *picture, size_t tile_number)
            !is_touched(&picture->stroke_bins, tile_number) && !is_touched(&picture->mark_bins, tile_number);
 }
 
+/* What a thread draws in; nothing in it outlives a tile but facets, which depend on the triangle alone. */
+typedef struct canvas {
+    mt_tile tile, fine;
+    mt_facet_cache *cache;
+    bool taken; /* atomic */
+} canvas;
+
 typedef struct draw_task {
-    mt_context *context;
     const mt_picture *picture;
     const mt_picture *fine; /* the same with more samples; NULL: none */
     size_t first_tile;
     uint64_t *covered, *refined; /* per tile of the picture */
-    bool *failed;                /* per tile: memory was missing */
+    canvas *canvases;            /* one for each thread */
+    unsigned canvas_count;
 } draw_task;
 
-/* What a thread draws in. */
-typedef struct canvas {
-    mt_tile tile, fine;
-    mt_facet_cache *cache;
-} canvas;
-
-static bool canvas_init(const draw_task *task, canvas *out)
+static bool canvas_init(mt_context *context, const draw_task *task, canvas *out)
 {
-    memset(out, 0, sizeof *out);
     bool marked = task->picture->marks.count > 0, fine = task->fine != NULL;
-    out->cache = (mt_facet_cache *)mt_try_allocate(task->context, sizeof *out->cache);
-    return out->cache && mt_tile_init(task->context, task->picture->frame, marked, &out->tile) &&
-           (!fine || (mt_tile_init(task->context, task->fine->frame, marked, &out->fine) &&
-                      mt_tile_mask(task->context, &out->fine)));
+    out->cache = (mt_facet_cache *)mt_try_allocate(context, sizeof *out->cache);
+    if (out->cache) {
+        mt_facet_cache_clear(out->cache);
+    }
+    return out->cache && mt_tile_init(context, task->picture->frame, marked, &out->tile) &&
+           (!fine ||
+            (mt_tile_init(context, task->fine->frame, marked, &out->fine) && mt_tile_mask(context, &out->fine)));
 }
 
-static void canvas_release(const draw_task *task, canvas *own)
+static mt_status make_canvases(mt_context *context, draw_task *task)
 {
-    mt_tile_release(task->context, &own->tile);
-    mt_tile_release(task->context, &own->fine);
-    mt_free(task->context, own->cache);
+    task->canvas_count = mt_context_thread_count(context);
+    task->canvases = (canvas *)mt_allocate_array_zeroed(context, task->canvas_count, sizeof *task->canvases);
+    bool ready = task->canvases != NULL;
+    for (unsigned i = 0; ready && i < task->canvas_count; i++) {
+        ready = canvas_init(context, task, &task->canvases[i]);
+    }
+    return ready ? MT_OK : mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "no memory left for a tile of the picture");
+}
+
+static void release_canvases(mt_context *context, draw_task *task)
+{
+    for (unsigned i = 0; task->canvases && i < task->canvas_count; i++) {
+        mt_tile_release(context, &task->canvases[i].tile);
+        mt_tile_release(context, &task->canvases[i].fine);
+        mt_free(context, task->canvases[i].cache);
+    }
+    mt_free(context, task->canvases);
+}
+
+/* There are as many as threads, so one is free. */
+static canvas *take_canvas(const draw_task *task)
+{
+    for (unsigned i = 0;; i = i + 1 < task->canvas_count ? i + 1 : 0) {
+        if (!__atomic_exchange_n(&task->canvases[i].taken, true, __ATOMIC_ACQUIRE)) {
+            return &task->canvases[i];
+        }
+    }
 }
 
 static void draw_tile(const draw_task *task, canvas *own, size_t tile_number)
@@ -174,61 +201,48 @@ static void draw_tile(const draw_task *task, canvas *own, size_t tile_number)
 static void draw_tiles(void *user, uint64_t begin, uint64_t end)
 {
     const draw_task *task = (const draw_task *)user;
-    canvas own;
-    bool ready = canvas_init(task, &own);
-    if (ready) {
-        mt_facet_cache_clear(own.cache);
-    }
+    canvas *own = take_canvas(task);
     for (uint64_t i = begin; i < end; i++) {
-        size_t number = task->first_tile + (size_t)i;
-        task->failed[number] = !ready;
-        if (ready) {
-            draw_tile(task, &own, number);
-        }
+        draw_tile(task, own, task->first_tile + (size_t)i);
     }
-    canvas_release(task, &own);
+    __atomic_store_n(&own->taken, false, __ATOMIC_RELEASE);
 }
 
 static mt_status draw_all(mt_context *context, draw_task *task, size_t tile_count)
 {
-    for (size_t first = 0; first < tile_count; first += TILES_PER_REPORT) {
+    mt_status status = MT_OK;
+    for (size_t first = 0; status == MT_OK && first < tile_count; first += TILES_PER_REPORT) {
         size_t count = tile_count - first < TILES_PER_REPORT ? tile_count - first : TILES_PER_REPORT;
         task->first_tile = first;
         mt_parallel_for(context, count, TILES_PER_BLOCK, draw_tiles, task);
-        for (size_t tile = first; tile < first + count; tile++) {
-            if (task->failed[tile]) {
-                return mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "no memory left for a tile of the picture");
-            }
-        }
-        mt_status status = mt_progress(context, "drawing", (double)(first + count) / (double)tile_count);
-        if (status != MT_OK) {
-            return status;
-        }
+        status = mt_progress(context, "drawing", (double)(first + count) / (double)tile_count);
     }
-    return MT_OK;
+    return status;
 }
 
 static mt_status draw_task_run(mt_context *context, draw_task *task, mt_picture *picture, size_t tile_count)
 {
     task->covered = (uint64_t *)mt_allocate_array_zeroed(context, tile_count, sizeof *task->covered);
     task->refined = (uint64_t *)mt_allocate_array_zeroed(context, tile_count, sizeof *task->refined);
-    task->failed = (bool *)mt_allocate_array(context, tile_count, sizeof *task->failed);
-    bool ready = task->covered && task->refined && task->failed;
-    mt_status status = ready ? draw_all(context, task, tile_count) : mt_context_error(context)->status;
+    mt_status status =
+        task->covered && task->refined ? make_canvases(context, task) : mt_context_error(context)->status;
+    if (status == MT_OK) {
+        status = draw_all(context, task, tile_count);
+    }
     picture->covered_samples = picture->fine_pixels = 0;
     for (size_t tile = 0; status == MT_OK && tile < tile_count; tile++) {
         picture->covered_samples += task->covered[tile];
         picture->fine_pixels += task->refined[tile];
     }
+    release_canvases(context, task);
     mt_free(context, task->covered);
     mt_free(context, task->refined);
-    mt_free(context, task->failed);
     return status;
 }
 
 static mt_status draw(mt_context *context, mt_picture *picture, const mt_frame *fine_frame)
 {
-    draw_task task = {.context = context, .picture = picture};
+    draw_task task = {.picture = picture};
     mt_picture fine = *picture;
     fine.frame = fine.strokes.frame = fine.marks.frame = fine_frame;
     task.fine = picture->fine_samples > 0 ? &fine : NULL;

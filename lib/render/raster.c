@@ -72,27 +72,29 @@ static void settle(const mt_frame *frame, mt_tile *tile, mt_index triangle, uint
     tile->numbers[at] = triangle;
 }
 
-__attribute__((noinline)) static void settle_lanes(const mt_frame *frame, mt_tile *tile, mt_index triangle, uint32_t x,
-                                                   uint32_t y, unsigned first_lane, unsigned lanes)
+__attribute__((noinline)) static void settle_groups(const mt_frame *frame, mt_tile *tile, mt_index triangle, int32_t x,
+                                                    int32_t y, const vector8i *groups, unsigned group_count)
 {
-    for (; lanes; lanes &= lanes - 1) {
-        settle(frame, tile, triangle, x, y, first_lane + (unsigned)__builtin_ctz(lanes));
+    for (unsigned g = 0; g < group_count; g++) {
+        for (unsigned lanes = mt_lane_bits(&groups[g]); lanes; lanes &= lanes - 1) {
+            unsigned lane = MT_GROUP_SIZE * g + (unsigned)__builtin_ctz(lanes);
+            settle(frame, tile, triangle, (uint32_t)x, (uint32_t)y, lane);
+        }
     }
 }
 
-/* Stores the triangle in the samples of a group where it is clearly inside and nearest; returns, a bit each, those that
- * are in doubt. */
-MT_INLINE unsigned store_group(const depth_setup *s, const vector8i *maybe, const vector8i *inside,
-                               const vector8f *near, float *depths, mt_index *numbers)
+/* Stores the triangle in the samples of a group where it is clearly inside and nearest; *doubt receives those about
+ * which the hit test is to be asked. */
+MT_INLINE void store_group(const depth_setup *s, const vector8i *maybe, const vector8i *inside, const vector8f *near,
+                           float *depths, mt_index *numbers, vector8i *doubt)
 {
     vector8f *old = (vector8f *)depths;
     vector8i *old_number = (vector8i *)numbers;
     vector8f nearer = *near - *old, band = *old * DEPTH_BAND;
     vector8i wins = *inside & (nearer > band);
-    vector8i doubt = *maybe & ~wins & (nearer >= -band);
+    *doubt = *maybe & ~wins & (nearer >= -band);
     *old = (vector8f)(((vector8i)*near & wins) | ((vector8i)*old & ~wins));
     *old_number = ((int32_t)s->number & wins) | (*old_number & ~wins);
-    return mt_any_lane(&doubt) ? mt_lane_bits(&doubt) : 0;
 }
 
 /* The least depth of a pixel's samples: nothing farther can be seen there. */
@@ -122,7 +124,7 @@ MT_INLINE bool is_behind(float nearest, float floor)
 typedef struct small_setup {
     depth_setup depth;
     float a[3], b[3], c[3], doubt[3]; /* twice the doubt */
-    float highest[3];                 /* at a pixel's samples, above its corner */
+    float lowest[3];                  /* at a pixel's corner, from which a sample may be inside */
 } small_setup;
 
 MT_INLINE void prepare_depth(const mt_frame *frame, mt_index triangle, const corners *c, depth_setup *s)
@@ -152,7 +154,7 @@ MT_INLINE void prepare_small(const mt_frame *frame, mt_index triangle, const cor
         s->a[i] = a, s->b[i] = b;
         s->c[i] = own - (a * x[i] + b * y[i]);
         s->doubt[i] = 2.0F * own;
-        s->highest[i] = a * (a > 0 ? last : first) + b * (b > 0 ? last : first);
+        s->lowest[i] = -(a * (a > 0 ? last : first) + b * (b > 0 ? last : first)) - own;
     }
 }
 
@@ -166,6 +168,7 @@ MT_INLINE void draw_small_pixel(const mt_frame *frame, mt_tile *tile, const smal
 {
     size_t pixel = mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y), lane = pixel * tile->lane_count;
     float depth = depth_at(&s->depth.plane, x, y);
+    vector8i doubts[MAXIMUM_GROUPS], any = {0};
     for (unsigned g = 0; g < group_count; g++) {
         vector8f e0 = e[0] + at->edges[0][g], e1 = e[1] + at->edges[1][g], e2 = e[2] + at->edges[2][g];
         vector8i maybe = (e0 >= 0.0F) & (e1 >= 0.0F) & (e2 >= 0.0F);
@@ -173,12 +176,21 @@ MT_INLINE void draw_small_pixel(const mt_frame *frame, mt_tile *tile, const smal
         inside &= s->depth.plane.vague ? 0 : -1;
         vector8f near = depth + at->depths[g];
         size_t first = lane + MT_GROUP_SIZE * g;
-        unsigned doubt = store_group(&s->depth, &maybe, &inside, &near, tile->depths + first, tile->numbers + first);
-        if (__builtin_expect(doubt != 0, 0)) {
-            settle_lanes(frame, tile, s->depth.number, (uint32_t)x, (uint32_t)y, MT_GROUP_SIZE * g, doubt);
-        }
+        store_group(&s->depth, &maybe, &inside, &near, tile->depths + first, tile->numbers + first, &doubts[g]);
+        any |= doubts[g];
+    }
+    if (__builtin_expect(mt_any_lane(&any), 0)) {
+        settle_groups(frame, tile, s->depth.number, x, y, doubts, group_count);
     }
     tile->floors[pixel] = floor_of(tile->depths + lane, group_count);
+}
+
+/* To the next pixel of the row. */
+MT_INLINE void step_right(const small_setup *s, float e[3])
+{
+    for (int i = 0; i < 3; i++) {
+        e[i] += s->a[i] * MT_STEPS;
+    }
 }
 
 /* The box of a small triangle: everything in floats. */
@@ -193,14 +205,14 @@ MT_INLINE void draw_small(const mt_frame *frame, mt_tile *tile, const small_setu
         }
         at.depths[g] = s->depth.slope_x * xs[g] + s->depth.slope_y * ys[g];
     }
+    float left = (float)((box.first_x - whole.first_x) * MT_STEPS);
     for (int32_t y = box.first_y; y <= box.last_y; y++) {
-        for (int32_t x = box.first_x; x <= box.last_x; x++) {
-            float left = (float)((x - whole.first_x) * MT_STEPS), top = (float)((y - whole.first_y) * MT_STEPS), e[3];
-            bool touched = true;
-            for (int i = 0; i < 3; i++) {
-                e[i] = s->a[i] * left + s->b[i] * top + s->c[i];
-                touched &= e[i] + s->highest[i] >= 0;
-            }
+        float top = (float)((y - whole.first_y) * MT_STEPS), e[3];
+        for (int i = 0; i < 3; i++) {
+            e[i] = s->a[i] * left + s->b[i] * top + s->c[i];
+        }
+        for (int32_t x = box.first_x; x <= box.last_x; x++, step_right(s, e)) {
+            bool touched = e[0] >= s->lowest[0] && e[1] >= s->lowest[1] && e[2] >= s->lowest[2];
             float floor = tile->floors[mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y)];
             if (touched && !is_behind(s->depth.plane.nearest, floor)) {
                 draw_small_pixel(frame, tile, s, &at, e, group_count, x, y);
@@ -224,6 +236,7 @@ MT_INLINE void draw_large_pixel(const mt_frame *frame, mt_tile *tile, const larg
     size_t pixel = mt_tile_pixel(tile, (uint32_t)x, (uint32_t)y), lane = pixel * tile->lane_count;
     unsigned group_count = frame->sampling.lane_count / MT_GROUP_SIZE;
     float depth = depth_at(&s->depth.plane, x, y);
+    vector8i doubts[MAXIMUM_GROUPS], any = {0};
     for (unsigned g = 0; g < group_count; g++) {
         vector8i maybe = ~(vector8i){0}, inside = maybe;
         if (!whole) {
@@ -237,10 +250,11 @@ MT_INLINE void draw_large_pixel(const mt_frame *frame, mt_tile *tile, const larg
         inside &= s->depth.plane.vague ? 0 : -1;
         vector8f near = depth + (s->depth.slope_x * xs[g] + s->depth.slope_y * ys[g]);
         size_t first = lane + MT_GROUP_SIZE * g;
-        unsigned doubt = store_group(&s->depth, &maybe, &inside, &near, tile->depths + first, tile->numbers + first);
-        if (__builtin_expect(doubt != 0, 0)) {
-            settle_lanes(frame, tile, s->depth.number, (uint32_t)x, (uint32_t)y, MT_GROUP_SIZE * g, doubt);
-        }
+        store_group(&s->depth, &maybe, &inside, &near, tile->depths + first, tile->numbers + first, &doubts[g]);
+        any |= doubts[g];
+    }
+    if (__builtin_expect(mt_any_lane(&any), 0)) {
+        settle_groups(frame, tile, s->depth.number, x, y, doubts, group_count);
     }
     tile->floors[pixel] = floor_of(tile->depths + lane, group_count);
 }

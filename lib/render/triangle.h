@@ -18,9 +18,10 @@
 #define PLANE_ERROR 0x1p-16
 #define EDGE_ERROR 0x1p-14
 
-/* Rounding, as parts of the largest term: of a sum of three products in double, and of a float one. */
+/* Rounding, as parts of the largest term: of a sum of three products in double, and of a float one
+ * that is then stepped along eight pixels. */
 #define DOUBLE_ROUNDING 0x1p-49
-#define FLOAT_ROUNDING 0x1p-20F
+#define FLOAT_ROUNDING 0x1p-19F
 
 /* A triangle's corners in the picture. */
 typedef struct corners {

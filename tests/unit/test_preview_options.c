@@ -48,7 +48,7 @@ static const struct {
      0x012c0ec2c78265d1u},
     {{.samples = MT_SAMPLES_ADAPTIVE, .coloring = MT_COLORING_COMPONENT}, 0xb135957a1edb21f4u},
     {{.coloring = MT_COLORING_NORMAL, .shading = MT_SHADING_SMOOTH}, 0xbe599e59720c928eu},
-    {{.coloring = MT_COLORING_FACE, .fov_degrees = 80}, 0xc4732e5e12c68bc3u},
+    {{.coloring = MT_COLORING_FACE, .fov_degrees = 80}, 0xc95620385d132fb2u},
     {{.coloring = MT_COLORING_QUALITY, .view = MT_VIEW_TOP}, 0xade4a0b6058a9bd1u},
     {{.coloring = MT_COLORING_DEPTH, .has_up = true, .up = {1, 1, 0}}, 0xf76f0cf5b5152c4fu},
     {{.coloring = MT_COLORING_ORIENTATION, .view = MT_VIEW_BOTTOM, .triangle_test = MT_RAY_EXACT}, 0x7815e7cc0da5779cu},
