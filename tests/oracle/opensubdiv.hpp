@@ -63,13 +63,25 @@ inline SdcOptions sdc_options(const mt_subdivide_options &options)
     return result;
 }
 
-// The UVs of a mesh as a channel; empty when it has none for every corner.
-inline std::vector<int> channel_of(const mt_mesh *mesh)
+// The UVs of a mesh, on corners or else on vertices, and the number of a corner's.
+inline const mt_attribute *uvs_of(const mt_mesh *mesh)
 {
     const mt_attribute *uv = mt_mesh_find_attribute(mesh, MT_SEMANTIC_UV, MT_DOMAIN_CORNER);
+    return uv ? uv : mt_mesh_find_attribute(mesh, MT_SEMANTIC_UV, MT_DOMAIN_VERTEX);
+}
+
+inline mt_index uv_index(const mt_mesh *mesh, const mt_attribute *uv, mt_index corner)
+{
+    return mt_attribute_value_index(uv, uv->domain == MT_DOMAIN_CORNER ? corner : mesh->corner_vertices[corner]);
+}
+
+// The UVs as a channel; empty when not every corner has one.
+inline std::vector<int> channel_of(const mt_mesh *mesh)
+{
+    const mt_attribute *uv = uvs_of(mesh);
     std::vector<int> indices;
     for (mt_index corner = 0; uv && corner < mesh->corner_count; corner++) {
-        mt_index index = mt_attribute_value_index(uv, corner);
+        mt_index index = uv_index(mesh, uv, corner);
         if (index == MT_NONE) {
             return {};
         }
@@ -166,7 +178,7 @@ class Reference
         if (uv_indices.empty()) {
             return;
         }
-        const mt_attribute *uv = mt_mesh_find_attribute(mesh, MT_SEMANTIC_UV, MT_DOMAIN_CORNER);
+        const mt_attribute *uv = uvs_of(mesh);
         uvs.resize(levels + 1);
         for (mt_index value = 0; value < uv->value_count; value++) {
             uvs[0].push_back({{mt_attribute_get(uv, value, 0), mt_attribute_get(uv, value, 1), 0}});
@@ -320,7 +332,7 @@ inline Difference difference_at(const Reference &reference, int level, const mt_
         }
     }
     result.position /= extent(reference.positions[0]);
-    const mt_attribute *uv = mt_mesh_find_attribute(ours, MT_SEMANTIC_UV, MT_DOMAIN_CORNER);
+    const mt_attribute *uv = uvs_of(ours);
     if (reference.uvs.empty() || !uv) {
         return result;
     }
@@ -330,7 +342,7 @@ inline Difference difference_at(const Reference &reference, int level, const mt_
         Far::ConstIndexArray values = topology.GetFaceFVarValues(face, 0);
         const Value &value =
             reference.uvs[std::size_t(level)][std::size_t(values[(turn + int(corner) % sides) % sides])];
-        mt_index index = mt_attribute_value_index(uv, corner);
+        mt_index index = uv_index(ours, uv, corner);
         Value mine = {{mt_attribute_get(uv, index, 0), mt_attribute_get(uv, index, 1), 0}};
         result.uv = std::max(result.uv, distance(mine, value));
     }

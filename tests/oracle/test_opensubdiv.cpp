@@ -22,7 +22,7 @@ struct Cage {
     std::vector<mt_edge_value> creases;
     std::vector<mt_vertex_value> corners;
     std::vector<std::array<double, 2>> uvs;
-    std::vector<mt_index> uv_indices; // per corner; empty: no UVs
+    std::vector<mt_index> uv_indices; // per corner; empty: by vertex, or no UVs
     mt_subdivide_options options = {};
 };
 
@@ -52,11 +52,11 @@ void add_uvs(mt_context *context, mt_mesh *mesh, const Cage &cage, mt_type type)
 {
     mt_attribute_layout layout{};
     layout.semantic = MT_SEMANTIC_UV;
-    layout.domain = MT_DOMAIN_CORNER;
+    layout.domain = cage.uv_indices.empty() ? MT_DOMAIN_VERTEX : MT_DOMAIN_CORNER;
     layout.type = type;
     layout.component_count = 2;
     layout.value_count = cage.uvs.size();
-    layout.indexed = true;
+    layout.indexed = !cage.uv_indices.empty();
     mt_attribute *uv = nullptr;
     if (mt_mesh_add_attribute(context, mesh, &layout, &uv) != MT_OK) {
         std::abort();
@@ -65,7 +65,9 @@ void add_uvs(mt_context *context, mt_mesh *mesh, const Cage &cage, mt_type type)
         mt_attribute_set(uv, value, 0, cage.uvs[value][0]);
         mt_attribute_set(uv, value, 1, cage.uvs[value][1]);
     }
-    std::copy(cage.uv_indices.begin(), cage.uv_indices.end(), uv->indices);
+    if (uv->indices) {
+        std::copy(cage.uv_indices.begin(), cage.uv_indices.end(), uv->indices);
+    }
 }
 
 mt_mesh *mesh_of(mt_context *context, const Cage &cage, mt_type type)
@@ -82,7 +84,7 @@ mt_mesh *mesh_of(mt_context *context, const Cage &cage, mt_type type)
         std::abort();
     }
     fill(context, mesh, cage);
-    if (!cage.uv_indices.empty()) {
+    if (!cage.uvs.empty()) {
         add_uvs(context, mesh, cage, type);
     }
     mt_mesh_compact_faces(context, mesh);
@@ -420,6 +422,16 @@ void compare_face_varying(mt_context *context)
             sharpen(random, cage, i < 20 ? 0.1 : 0.4, sharpnesses);
             cage.options.triangles = i % 5 ? MT_SUBDIVIDE_TRIANGLES_NORMAL : MT_SUBDIVIDE_TRIANGLES_SMOOTH;
             compare(context, label + ", seams and creases " + std::to_string(i), cage);
+        }
+        for (int i = 0; i < 4; i++) {
+            Cage cage = grid(random, 5, 4, i == 0);
+            cage.options.face_varying = static_cast<mt_subdivide_face_varying>(option);
+            cage.options.boundary = i % 2 ? MT_SUBDIVIDE_BOUNDARY_SMOOTH : MT_SUBDIVIDE_BOUNDARY_CORNERS;
+            sharpen(random, cage, 0.1 * i, sharpnesses);
+            for (const auto &p : cage.points) {
+                cage.uvs.push_back({p[0], p[1] - p[2]});
+            }
+            compare(context, label + ", by vertex " + std::to_string(i), cage);
         }
         Cage box = cube();
         box.options.face_varying = static_cast<mt_subdivide_face_varying>(option);
