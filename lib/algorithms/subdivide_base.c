@@ -249,18 +249,30 @@ static mt_index next_in_face(const mt_mesh *mesh, mt_index corner)
     return corner + 1 < mt_mesh_face_end(mesh, face) ? corner + 1 : mt_mesh_face_begin(mesh, face);
 }
 
+/* Sides of an edge besides its first and last. */
+static mt_index count_between(const mt_edge_pairs *pairs, mt_index first)
+{
+    mt_index count = 0;
+    for (mt_index side = pairs->next_side[pairs->next_side[first]]; side != first; side = pairs->next_side[side]) {
+        count++;
+    }
+    return count;
+}
+
 mt_index mt_subdivide_seam_count(const mt_mesh *mesh, const mt_edge_pairs *pairs, const mt_attribute *attribute,
                                  bool missing_is_one)
 {
     mt_index count = 0;
     for (mt_index corner = 0; corner < mesh->corner_count; corner++) {
         mt_index twin = pairs->next_side[corner];
-        if (twin != MT_NONE && twin > corner) {
-            mt_index next = next_in_face(mesh, corner), twin_next = next_in_face(mesh, twin);
-            bool whole = missing_is_one ? is_whole(attribute->indices, corner, next, twin, twin_next)
-                                        : value_twin(attribute->indices, corner, next, twin, twin_next) == twin;
-            count += !whole;
+        if (twin == MT_NONE || twin <= corner) {
+            continue;
         }
+        mt_index next = next_in_face(mesh, corner), twin_next = next_in_face(mesh, twin);
+        mt_index between = count_between(pairs, corner);
+        bool whole = missing_is_one ? is_whole(attribute->indices, corner, next, twin, twin_next)
+                                    : value_twin(attribute->indices, corner, next, twin, twin_next) == twin;
+        count += between ? between + 1 : !whole;
     }
     return count;
 }
