@@ -6,9 +6,9 @@
  * answer does not depend on threads. Most triangles whose boxes overlap are neighbours around a vertex, and at most
  * vertices it is plain that no neighbours intersect (flat_stars.h), so few pairs need a test.
  *
- * Cost: the stars (24 bytes a triangle) and then the tree (44 bytes a triangle), the positions in double where they
- * need scaling, and the pairs. A mesh in which very many triangles overlap has that many pairs: MT_ERROR_TOO_LARGE past
- * 2^31. */
+ * Cost: the stars (24 bytes a triangle) and then the tree with its keys (60 bytes a triangle), the positions in double
+ * where they need scaling, and the pairs. A mesh in which very many triangles overlap has that many pairs:
+ * MT_ERROR_TOO_LARGE past 2^31. */
 #include "lib/algorithms/flat_stars.h"
 #include "lib/algorithms/triangle_plane.h"
 
@@ -38,6 +38,8 @@ typedef struct search {
     uint8_t *skip;    /* per triangle: of zero area */
     uint8_t *facings; /* per triangle, see flat_stars.h */
     uint8_t *flat;    /* per vertex: no two of its triangles intersect */
+    mt_aabb_tree *tree;
+    mt_index *keys; /* of the tree's primitives */
     bool only_first;
     atomic_bool found;
     pair_list lists[MT_PAIR_TASKS_MAXIMUM];
@@ -171,42 +173,32 @@ static bool decide_pair(search *job, mt_index task, mt_primitive_pair pair)
     return keep_pair(job, &job->lists[task], face, other);
 }
 
-/* Whether two triangles share a vertex around which nothing intersects, by the first one's flat vertices. */
-static bool share_flat_vertex(const mt_index flat[3], const mt_index vertices[3])
-{
-    bool shared = false;
-    for (int i = 0; i < 3; i++) {
-        shared |= (flat[i] == vertices[0]) | (flat[i] == vertices[1]) | (flat[i] == vertices[2]);
-    }
-    return shared;
-}
-
-static void keep_flat(const search *job, const mt_index vertices[3], mt_index flat[3])
-{
-    for (int i = 0; i < 3; i++) {
-        flat[i] = job->flat[vertices[i]] ? vertices[i] : MT_NONE;
-    }
-}
-
-/* Pairs of one triangle come one after the other, and most share a flat vertex. */
 static bool decide_pairs(void *user, mt_index task, const mt_primitive_pair *pairs, size_t count)
 {
     search *job = user;
     if (job->only_first && atomic_load_explicit(&job->found, memory_order_relaxed)) {
         return false;
     }
-    mt_index flat[3], vertices[3];
     for (size_t i = 0; i < count; i++) {
-        if (i == 0 || pairs[i].a != pairs[i - 1].a) {
-            load_vertices(job, pairs[i].a, vertices);
-            keep_flat(job, vertices, flat);
-        }
-        load_vertices(job, pairs[i].b, vertices);
-        if (!share_flat_vertex(flat, vertices) && !decide_pair(job, task, pairs[i])) {
+        if (!decide_pair(job, task, pairs[i])) {
             return false;
         }
     }
     return true;
+}
+
+/* A triangle's keys are its flat vertices: those that have one in common do not intersect. */
+static void fill_keys(void *user, uint64_t begin, uint64_t end)
+{
+    const search *job = user;
+    for (uint64_t place = begin; place < end; place++) {
+        mt_index *keys = job->keys + 4 * place;
+        load_vertices(job, job->tree->primitives[place].number, keys);
+        for (int i = 0; i < 3; i++) {
+            keys[i] = job->flat[keys[i]] ? keys[i] : MT_NONE;
+        }
+        keys[3] = MT_NONE;
+    }
 }
 
 static int compare_pairs(const void *left, const void *right)
@@ -258,25 +250,36 @@ static mt_status join_lists(search *job, mt_self_intersections *out)
     return MT_OK;
 }
 
-static mt_status search_with_tree(search *job, mt_self_intersections *out)
+static mt_status search_tree(search *job)
 {
-    mt_context *context = job->context;
-    mt_aabb_tree *tree;
-    mt_parallel_for(context, job->triangulation->triangle_count, 16384, judge_triangles, job);
-    mt_status status = mt_find_flat_stars(context, job->mesh, job->triangulation, job->points, job->facings, job->flat);
+    mt_status status = mt_progress(job->context, "looking for self-intersections", 0.3);
     if (status != MT_OK) {
         return status;
     }
-    status = mt_aabb_tree_create(context, job->mesh, job->triangulation, job->skip, &tree);
+    job->keys = mt_allocate_array(job->context, job->tree->primitive_count, 4 * sizeof *job->keys);
+    if (!job->keys) {
+        return MT_ERROR_OUT_OF_MEMORY;
+    }
+    mt_parallel_for(job->context, job->tree->primitive_count, 16384, fill_keys, job);
+    status = mt_aabb_tree_self_pairs(job->context, job->tree, job->keys, decide_pairs, job);
+    mt_free(job->context, job->keys);
+    return status;
+}
+
+static mt_status search_with_tree(search *job, mt_self_intersections *out)
+{
+    mt_context *context = job->context;
+    mt_parallel_for(context, job->triangulation->triangle_count, 16384, judge_triangles, job);
+    mt_status status = mt_find_flat_stars(context, job->mesh, job->triangulation, job->points, job->facings, job->flat);
+    if (status == MT_OK) {
+        status = mt_aabb_tree_create(context, job->mesh, job->triangulation, job->skip, &job->tree);
+    }
     if (status != MT_OK) {
         return status;
     }
     int part = mt_part_begin(context, "pairs of triangles", "boxes that overlap, decided exactly");
-    status = mt_progress(context, "looking for self-intersections", 0.3);
-    if (status == MT_OK) {
-        status = mt_aabb_tree_self_pairs(context, tree, decide_pairs, job);
-    }
-    mt_aabb_tree_destroy(context, tree);
+    status = search_tree(job);
+    mt_aabb_tree_destroy(context, job->tree);
     if (status == MT_OK) {
         status = join_lists(job, out);
     }

@@ -5,6 +5,9 @@
 #include <meshtool/aabb_tree.h>
 
 #include <string.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 typedef float float4 __attribute__((vector_size(16)));
 typedef int32_t int4 __attribute__((vector_size(16)));
@@ -21,10 +24,19 @@ static inline box box_load(const void *record)
     return b;
 }
 
+/* A bit for each lane that is set throughout; lanes are set throughout or not at all. */
+static inline unsigned int4_lanes(int4 lanes)
+{
+#ifdef __SSE2__
+    return (unsigned)_mm_movemask_ps((__m128)lanes);
+#else
+    return (unsigned)((lanes[0] & 1) | (lanes[1] & 2) | (lanes[2] & 4) | (lanes[3] & 8));
+#endif
+}
+
 static inline bool box_overlaps(box a, box b)
 {
-    int4 inside = (a.lower <= b.upper) & (b.lower <= a.upper);
-    return (inside[0] & inside[1] & inside[2]) != 0;
+    return (int4_lanes((a.lower <= b.upper) & (b.lower <= a.upper)) & 7) == 7;
 }
 
 static inline box box_empty(void)
@@ -36,14 +48,22 @@ static inline box box_empty(void)
 /* Lane by lane the smaller and the larger; a NaN in the fourth lane does no harm. */
 static inline float4 float4_minimum(float4 a, float4 b)
 {
+#ifdef __SSE2__
+    return (float4)_mm_min_ps((__m128)a, (__m128)b);
+#else
     int4 less = a < b;
     return (float4)(((int4)a & less) | ((int4)b & ~less));
+#endif
 }
 
 static inline float4 float4_maximum(float4 a, float4 b)
 {
+#ifdef __SSE2__
+    return (float4)_mm_max_ps((__m128)b, (__m128)a);
+#else
     int4 less = a < b;
     return (float4)(((int4)b & less) | ((int4)a & ~less));
+#endif
 }
 
 static inline box box_join(box a, box b)

@@ -16,6 +16,7 @@ typedef struct node_pair {
 
 typedef struct pair_search {
     const mt_aabb_tree *tree;
+    const mt_index *keys; /* four a primitive, or NULL */
     mt_pair_function function;
     void *user;
     node_pair tasks[MT_PAIR_TASKS_MAXIMUM];
@@ -38,17 +39,60 @@ static void flush(pair_batch *batch)
     batch->count = 0;
 }
 
-/* The pairs of one primitive with those in [begin, end). */
-static void add_row(pair_batch *batch, const mt_aabb_primitive *one, mt_index begin, mt_index end)
+/* Each of a primitive's keys in all lanes. Those that are missing repeat another, so that they match nothing else.
+ * False when all are missing. */
+static bool spread_keys(const mt_index *keys, int4 spread[3])
+{
+    mt_index any = MT_NONE;
+    for (int i = 0; i < 3; i++) {
+        any = keys[i] == MT_NONE ? any : keys[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        int32_t key = (int32_t)(keys[i] == MT_NONE ? any : keys[i]);
+        spread[i] = (int4){key, key, key, key};
+    }
+    return any != MT_NONE;
+}
+
+static bool holds_key(const mt_index *keys, const int4 spread[3])
+{
+    int4 own;
+    memcpy(&own, keys, sizeof own);
+    return (int4_lanes((own == spread[0]) | (own == spread[1]) | (own == spread[2])) & 7) != 0;
+}
+
+static void add_row(pair_batch *batch, mt_index place, mt_index begin, mt_index end)
 {
     const mt_aabb_primitive *primitives = batch->search->tree->primitives;
-    box own = box_load(one);
+    box own = box_load(&primitives[place]);
+    for (mt_index j = begin; j < end; j++) {
+        batch->pairs[batch->count] = (mt_primitive_pair){primitives[place].number, primitives[j].number};
+        batch->count += box_overlaps(own, box_load(&primitives[j])); /* no branch: half of them do */
+    }
+}
+
+static void add_keyed_row(pair_batch *batch, mt_index place, mt_index begin, mt_index end, const int4 spread[3])
+{
+    const mt_aabb_primitive *primitives = batch->search->tree->primitives;
+    const mt_index *keys = batch->search->keys;
+    box own = box_load(&primitives[place]);
+    for (mt_index j = begin; j < end; j++) {
+        batch->pairs[batch->count] = (mt_primitive_pair){primitives[place].number, primitives[j].number};
+        batch->count += box_overlaps(own, box_load(&primitives[j])) & !holds_key(keys + 4 * (size_t)j, spread);
+    }
+}
+
+/* The pairs of the primitive at one place with those in [begin, end). */
+static void add_pairs(pair_batch *batch, mt_index place, mt_index begin, mt_index end)
+{
+    int4 spread[3];
     if (batch->count + MT_AABB_LEAF_SIZE > BATCH_SIZE) {
         flush(batch);
     }
-    for (mt_index j = begin; j < end; j++) {
-        batch->pairs[batch->count] = (mt_primitive_pair){one->number, primitives[j].number};
-        batch->count += box_overlaps(own, box_load(&primitives[j])); /* no branch: half of them do */
+    if (batch->search->keys && spread_keys(batch->search->keys + 4 * (size_t)place, spread)) {
+        add_keyed_row(batch, place, begin, end, spread);
+    } else {
+        add_row(batch, place, begin, end);
     }
 }
 
@@ -58,7 +102,7 @@ static void add_leaf_pairs(pair_batch *batch, const mt_aabb_node *a, const mt_aa
     box other = box_load(b);
     for (mt_index i = a->first; i < a->first + a->count; i++) {
         if (box_overlaps(box_load(&primitives[i]), other)) {
-            add_row(batch, &primitives[i], a == b ? i + 1 : b->first, b->first + b->count);
+            add_pairs(batch, i, a == b ? i + 1 : b->first, b->first + b->count);
         }
     }
 }
@@ -151,7 +195,8 @@ static void make_tasks(pair_search *search)
     }
 }
 
-mt_status mt_aabb_tree_self_pairs(mt_context *context, const mt_aabb_tree *tree, mt_pair_function function, void *user)
+mt_status mt_aabb_tree_self_pairs(mt_context *context, const mt_aabb_tree *tree, const mt_index *keys,
+                                  mt_pair_function function, void *user)
 {
     if (!tree->node_count) {
         return MT_OK;
@@ -161,6 +206,7 @@ mt_status mt_aabb_tree_self_pairs(mt_context *context, const mt_aabb_tree *tree,
         return MT_ERROR_OUT_OF_MEMORY;
     }
     search->tree = tree;
+    search->keys = keys;
     search->function = function;
     search->user = user;
     make_tasks(search);

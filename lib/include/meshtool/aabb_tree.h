@@ -60,9 +60,12 @@ typedef bool (*mt_pair_function)(void *user, mt_index task, const mt_primitive_p
 /* Tasks into which mt_aabb_tree_self_pairs cuts its work at most; it depends on nothing but this. */
 #define MT_PAIR_TASKS_MAXIMUM 512
 
-/* Every pair of primitives whose boxes overlap. MT_ERROR_OUT_OF_MEMORY. The tasks, and the order within each, do not
- * depend on the number of threads. */
-mt_status mt_aabb_tree_self_pairs(mt_context *context, const mt_aabb_tree *tree, mt_pair_function function, void *user);
+/* Every pair of primitives whose boxes overlap, but for those that have a key in common: keys holds four numbers a
+ * primitive, in the order of tree->primitives, of which three are its keys (MT_NONE: none) and the fourth is not looked
+ * at; NULL for no keys at all. MT_ERROR_OUT_OF_MEMORY. The tasks, and the order within each, do not depend on the
+ * number of threads. */
+mt_status mt_aabb_tree_self_pairs(mt_context *context, const mt_aabb_tree *tree, const mt_index *keys,
+                                  mt_pair_function function, void *user);
 
 #ifdef __cplusplus
 }
