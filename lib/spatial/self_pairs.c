@@ -78,7 +78,9 @@ static void add_keyed_row(pair_batch *batch, mt_index place, mt_index begin, mt_
     box own = box_load(&primitives[place]);
     for (mt_index j = begin; j < end; j++) {
         batch->pairs[batch->count] = (mt_primitive_pair){primitives[place].number, primitives[j].number};
-        batch->count += box_overlaps(own, box_load(&primitives[j])) & !holds_key(keys + 4 * (size_t)j, spread);
+        bool overlaps = box_overlaps(own, box_load(&primitives[j]));
+        bool is_left_out = holds_key(keys + 4 * (size_t)j, spread);
+        batch->count += overlaps & !is_left_out;
     }
 }
 
