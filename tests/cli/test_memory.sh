@@ -5,6 +5,7 @@ cd "$folder" || exit 1
 "$meshtool" convert cube.off cube.stl 2>/dev/null
 "$meshtool" generate icosphere -o sphere.ply
 mkdir out
+printf 'crease 0 1 2\ncorner 2 1\nhole 0\ncrease 1 2 10\n' >list
 
 # limited SIZE NAME ARGUMENTS...: one run; counts those that ended well and those that met the limit.
 limited() {
@@ -43,6 +44,7 @@ for file in cube.stl sphere.ply; do
   sweep convert "$file" out/x.stl
   sweep subdivide "$file" -o out/x.ply -n 2
   sweep subdivide "$file" -o out/x.ply --limit
+  sweep subdivide "$file" -o out/x.ply --creases list --crease-angle 20 --non-manifold crease --uv none
   sweep subdivide "$file" --dry-run
   sweep preview "$file" -o out/x.png --size 64x64
 done
