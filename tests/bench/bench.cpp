@@ -121,6 +121,7 @@ const Case cases[] = {
     {"self-intersection", run_self_intersection},
     {"subdivision", run_subdivision},
     {"preview", run_preview},
+    {"preview-process", run_preview_process},
     {"rays", run_rays},
     {"closest", run_closest},
 };

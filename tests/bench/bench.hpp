@@ -46,6 +46,7 @@ void run_check();
 void run_self_intersection();
 void run_subdivision();
 void run_preview();
+void run_preview_process();
 void run_rays();
 void run_closest();
 
