@@ -68,15 +68,15 @@ void compare_points(const Target &target, const Tree &cgal, const std::string &f
 {
     std::mt19937 random(1);
     mt_bounds bounds = mt_mesh_bounds(target.mesh);
-    double worst = 0;
+    double worst = 0, size = mt_vec3_max_abs(mt_vec3_subtract(bounds.maximum, bounds.minimum));
     for (int i = 0; i < 200; i++) {
         mt_vec3 p = random_point(bounds, random, i % 2 ? 0.6 : 2);
         mt_closest closest;
         mt_surface_tree_closest(target.tree, p, nullptr, &closest);
         double theirs = std::sqrt(CGAL::to_double(cgal.squared_distance(exact_point(p))));
-        worst = std::max(worst, std::fabs(closest.distance - theirs) / theirs);
+        worst = std::max(worst, std::fabs(closest.distance - theirs) / size);
     }
-    tally.expect(worst < 1e-13, file + ": nearest points, relative error " + std::to_string(worst));
+    tally.expect(worst < 1e-15, file + ": nearest points, off by " + std::to_string(worst * 1e15) + "e-15 of the size");
 }
 
 // Exactly which triangles the ray meets, and the least t of them.
