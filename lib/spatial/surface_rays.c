@@ -115,7 +115,8 @@ MT_INLINE uint32_t filter_edges(const ray_walk *walk, const leaf_view *view, flo
         high = w > high ? w : high;
         float size = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) + fabsf(cx) + fabsf(cy);
         float margin = slack * (size + slack) * 2;
-        passes[lane] = (low >= -margin) | (high <= margin) ? 1 << lane : 0;
+        bool is_met = (low >= -margin) | (high <= margin);
+        passes[lane] = is_met ? 1 << lane : 0;
     }
     return mt_bits_of(passes);
 }
@@ -136,7 +137,8 @@ MT_INLINE uint32_t filter_fast(const ray_walk *walk, const leaf_view *view)
         (void)t;
         float sign = determinant < 0 ? -1.0f : 1.0f;
         u *= sign, v *= sign, determinant *= sign;
-        passes[lane] = (determinant > 0) & (u >= 0) & (v >= 0) & (u + v <= determinant) ? 1 << lane : 0;
+        bool is_met = (determinant > 0) & (u >= 0) & (v >= 0) & (u + v <= determinant);
+        passes[lane] = is_met ? 1 << lane : 0;
     }
     return mt_bits_of(passes);
 }
