@@ -114,15 +114,9 @@ void write_csv(const char *path)
 }
 
 const Case cases[] = {
-    {"reading", run_reading},
-    {"connectivity", run_connectivity},
-    {"one-ring", run_one_ring},
-    {"check", run_check},
-    {"self-intersection", run_self_intersection},
-    {"subdivision", run_subdivision},
-    {"preview", run_preview},
-    {"preview-process", run_preview_process},
-    {"rays", run_rays},
+    {"reading", run_reading}, {"connectivity", run_connectivity},           {"one-ring", run_one_ring},
+    {"check", run_check},     {"self-intersection", run_self_intersection}, {"subdivision", run_subdivision},
+    {"preview", run_preview}, {"preview-process", run_preview_process},     {"rays", run_rays},
     {"closest", run_closest},
 };
 

@@ -1,7 +1,7 @@
 /* The walk around a vertex went on after it had met a boundary side, if corners of the vertex were still to be met: at
- * the next vertex of the face, and on from there. Where it came to a side a = b, which has no other side, it read before
- * the start of an array, and check-manifold crashed. Needed are an open and a closed fan at one vertex (0 below), and
- * near it a face with a repeated vertex. */
+ * the next vertex of the face, and on from there. Where it came to a side a = b, which has no other side, it read
+ * before the start of an array, and check-manifold crashed. Needed are an open and a closed fan at one vertex (0
+ * below), and near it a face with a repeated vertex. */
 #include "tests/support/unit.h"
 
 #include "tests/support/fixture.h"

@@ -113,7 +113,8 @@ typedef struct mt_preview_report {
         target[3];           /* in the mesh's coordinates; target: the point of the view's axis nearest to the middle */
     double scale_bar_length; /* in the mesh's units; 0: none was drawn */
     double units_per_pixel;  /* at the target */
-    mt_index unseen_faces;   /* with count_unseen: faces that no sample shows: hidden, too small, or outside the picture */
+    mt_index
+        unseen_faces; /* with count_unseen: faces that no sample shows: hidden, too small, or outside the picture */
 } mt_preview_report;
 
 /* Draws the mesh, seen in perspective from three quarters above unless told otherwise; options may be NULL. The up axis
