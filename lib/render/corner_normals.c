@@ -233,7 +233,7 @@ mt_status mt_corner_normals_build(mt_context *context, mt_model *model, double c
 {
     double angle = crease_degrees * (MT_PI / 180.0);
     normals->minimum_cosine = mt_cos(angle) - COSINE_MARGIN;
-    normals->given = given_normals(model->mesh);
+    normals->given = normals->own ? NULL : given_normals(model->mesh);
     if (normals->given || model->mesh->face_count == 0) {
         return MT_OK;
     }

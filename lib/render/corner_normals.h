@@ -21,6 +21,7 @@ typedef struct mt_corner_normals {
     mt_index *incident_faces;  /* of the creased vertices */
     double minimum_cosine;     /* between faces that share a normal at a corner */
     bool flat;                 /* each face has its own alone */
+    bool own;                  /* the mesh's are not looked at */
     const mt_attribute *given; /* normals that the mesh brings, used instead; NULL: none */
 } mt_corner_normals;
 

@@ -38,6 +38,7 @@ static mt_status make_normals(mt_context *context, mt_preview_series *series)
     int part = mt_part_begin(context, "corner normals", "faces meet smoothly below the crease angle");
     double crease = options->crease_degrees > 0 ? options->crease_degrees : DEFAULT_CREASE;
     bool smooth = options->shading == MT_SHADING_SMOOTH;
+    series->normals.own = smooth || options->crease_degrees > 0; /* asked for, not found */
     status = mt_corner_normals_build(context, &series->model, smooth ? 180.0 : crease, &series->normals);
     mt_part_end(context, part);
     return status;

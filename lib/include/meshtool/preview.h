@@ -76,7 +76,7 @@ typedef struct mt_preview_options {
     mt_background background;   /* default: a light grey that fades downwards */
     double background_color[3]; /* sRGB, 0 to 1, for MT_BACKGROUND_COLOR */
     double crease_degrees;      /* faces meeting at more than this, up to 180, show an edge; 0: 41, which no regular
-                                   solid or prism has. Normals that the mesh brings are used instead when all are finite */
+                                   solid or prism has, or the normals that the mesh brings when all are finite */
     unsigned samples;           /* per pixel: a square number up to 64, or MT_SAMPLES_ADAPTIVE; 0: 16 */
     const unsigned char *face_colors;  /* sRGB triples, one a face, NULL: the mesh's colours or a neutral one */
     const unsigned char *vertex_marks; /* not 0: the vertex is drawn as a dot; NULL: none */
