@@ -165,7 +165,8 @@ mt_status mt_subdivide_to_limit(mt_context *context, mt_subdivide_state *state, 
         status = mt_limit_rings_create(context, &job.rings);
     }
     if (status == MT_OK) {
-        status = move_to_limit(context, &job, state->cut != NULL, result);
+        bool joined = state->cut && state->cut->mesh->vertex_count > state->cut->source_count;
+        status = move_to_limit(context, &job, joined, result);
         mt_limit_rings_release(context, &job.rings);
     }
     mt_subdivide_patches_release(context, &patches);

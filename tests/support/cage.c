@@ -2,6 +2,9 @@
 
 #include "tests/support/unit.h"
 
+#include <meshtool/edge_pairs.h>
+#include <meshtool/triangulate.h>
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,6 +104,23 @@ mt_mesh *test_cage(mt_context *context, test_random *random, mt_index columns, m
     free(positions);
     free(shape.faces);
     return mesh;
+}
+
+mt_mesh *test_triangle_cage(mt_context *context, test_random *random, mt_index columns, mt_index rows, bool closed)
+{
+    for (;;) {
+        mt_mesh *polygons = test_cage(context, random, columns, rows, closed), *triangles = NULL;
+        mt_edge_pairs *pairs = NULL;
+        assert_int_equal(mt_mesh_triangulate(context, polygons, &triangles), MT_OK);
+        assert_int_equal(mt_edge_pairs_create(context, triangles, &pairs), MT_OK);
+        bool manifold = pairs->non_manifold_count == 0;
+        mt_edge_pairs_destroy(context, pairs);
+        mt_mesh_destroy(context, polygons);
+        if (manifold) {
+            return triangles;
+        }
+        mt_mesh_destroy(context, triangles);
+    }
 }
 
 /* A random order of the numbers below count, malloc'ed. */

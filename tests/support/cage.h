@@ -11,6 +11,9 @@ mt_mesh *test_cube(mt_context *context);
  * a quad, cut into two triangles or joined with its neighbour to a hexagon, at random, positions shaken. */
 mt_mesh *test_cage(mt_context *context, test_random *random, mt_index columns, mt_index rows, bool closed);
 
+/* The first such cage whose faces can be cut into triangles: of others two diagonals are one edge. */
+mt_mesh *test_triangle_cage(mt_context *context, test_random *random, mt_index columns, mt_index rows, bool closed);
+
 /* A copy with renumbered vertices, shuffled and turned faces, and, if `reverse`, all faces reversed. corner_images
  * receives per corner of the mesh the one of the copy that has the same vertex in the same face. */
 mt_mesh *test_renumbered(mt_context *context, test_random *random, const mt_mesh *mesh, bool reverse,

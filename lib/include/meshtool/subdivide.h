@@ -1,7 +1,8 @@
-/* Catmull-Clark subdivision of any polygon mesh with boundary.
+/* Catmull-Clark subdivision of any polygon mesh with boundary, and Loop subdivision of triangles.
  * Sources: Catmull and Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes",
  * Computer-Aided Design 10 (1978); Dupuy and Vanhoey, "A Halfedge Refinement Rule for Parallel Catmull-Clark
- * Subdivision", Computer Graphics Forum 40 (2021), for the layout: the children of corner c are 4c .. 4c+3. */
+ * Subdivision", Computer Graphics Forum 40 (2021), for the layout: the children of corner c are 4c .. 4c+3; Loop,
+ * "Smooth Subdivision Surfaces Based on Triangles", Master's thesis, University of Utah (1987). */
 #ifndef MESHTOOL_SUBDIVIDE_H
 #define MESHTOOL_SUBDIVIDE_H
 
@@ -63,8 +64,8 @@ typedef enum mt_subdivide_non_manifold {
 /* All zeros means the defaults. */
 typedef struct mt_subdivide_options {
     unsigned level_count; /* 0: 1 level; at most MT_SUBDIVIDE_LEVEL_LIMIT, else MT_ERROR_ARGUMENT */
-    bool no_levels;       /* really 0 levels: a copy, unchecked but for `limit`, which then needs quads */
-    bool limit;           /* the vertices of the last level lie on the limit surface, with its normals */
+    bool no_levels; /* really 0 levels: a copy, unchecked but for `limit`, which then needs the scheme's own faces */
+    bool limit;     /* the vertices of the last level lie on the limit surface, with its normals */
     mt_subdivide_scheme scheme;
     mt_subdivide_boundary boundary;
     mt_subdivide_crease_method crease_method;
@@ -98,6 +99,12 @@ mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_
  *   stays
  * - faces: one for each old corner, in their order, each (old vertex, edge point of its side, face point, edge point of
  *   the side before)
+ * - by Loop's scheme: no face points, so that edge points are V + e; four triangles for each old face f: 4f .. 4f+2,
+ *   each with the old vertex at the corner where f has it, then in turn the edge points of its side and of the side
+ *   before, and 4f+3 in the middle, whose corner j is the edge point of side j. With E old edges there are V + E
+ *   vertices, 2E + 3F edges and 4F faces. An old vertex of valence n moves by b times the sum of its neighbours'
+ *   differences from it, b = (5/8 - (3/8 + cos(2 pi/n)/4)^2)/n; edge points are 3/8 of the ends and 1/8 of the
+ *   vertices opposite; boundaries and creases are the same cubic B-splines. All below holds for both schemes
  * - wires, points: as they are; their vertices keep their numbers
  * - labels, face attributes: inherited from the old face; mesh attributes are copied
  * - vertex attributes: by the vertex rule, like positions, but UVs like corner attributes; integers of generic meaning
@@ -123,6 +130,7 @@ mt_status mt_subdivide_count(mt_context *context, const mt_mesh *mesh, const mt_
  *
  * Errors: MT_ERROR_NOT_MANIFOLD (an edge of three faces, a vertex where several fans of faces meet, a face that names a
  * vertex twice), MT_ERROR_NOT_ORIENTED; the message names the first offender and says whether repair can help.
+ * MT_ERROR_INVALID_MESH: Loop's scheme with a face that is no triangle, the limit of level 0 with one that is no quad.
  * MT_ERROR_TOO_LARGE before anything of that size is allocated; MT_ERROR_OUT_OF_MEMORY, MT_ERROR_CANCELLED. */
 mt_status mt_subdivide(mt_context *context, const mt_mesh *mesh, const mt_subdivide_options *options, mt_mesh **out);
 
