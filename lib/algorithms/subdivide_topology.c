@@ -32,10 +32,11 @@ MT_SUBDIVIDE_INLINE void refine_face(const mt_subdivide_loop *loop, mt_index fac
     mt_index face_point = parent->vertex_count + face;
     mt_index first_edge_point = parent->vertex_count + parent->face_count;
     mt_index rank = 2 * mt_subdivide_face_rank(parent, face, sides) + begin;
-    mt_index previous_point = first_edge_point + mt_subdivide_edge(parent, end - 1, sides);
+    mt_index last_point = first_edge_point + mt_subdivide_edge(parent, end - 1, sides), previous_point = last_point;
     for (mt_index corner = begin; corner < end; corner++) {
         mt_index previous = corner == begin ? end - 1 : corner - 1;
-        mt_index edge_point = first_edge_point + mt_subdivide_edge(parent, corner, sides);
+        mt_index edge_point =
+            corner + 1 == end ? last_point : first_edge_point + mt_subdivide_edge(parent, corner, sides);
         mt_index *vertices = loop->child_vertices + 4 * (size_t)corner;
         vertices[0] = parent->corner_vertices[corner];
         vertices[1] = edge_point;
