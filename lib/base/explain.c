@@ -12,7 +12,7 @@ static double milliseconds_now(void)
 
 static mt_part *add_part(mt_context *context, const char *name, const char *reason)
 {
-    if (!context->options.explain || context->part_count == MT_PART_CAPACITY) {
+    if (!context->options.explain || context->part_count == MT_PART_CAPACITY || context->measured_part) {
         return NULL;
     }
     mt_part *part = &context->parts[context->part_count++];
@@ -38,6 +38,7 @@ int mt_part_begin_skipped(mt_context *context, const char *name, const char *rea
     int token = mt_part_begin(context, name, reason);
     if (token >= 0) {
         context->parts[token].built = false;
+        context->measured_part = token + 1;
     }
     return token;
 }
@@ -46,6 +47,9 @@ void mt_part_end(mt_context *context, int token)
 {
     if (token < 0) {
         return;
+    }
+    if (context->measured_part == token + 1) {
+        context->measured_part = 0;
     }
     mt_part *part = &context->parts[token];
     uint64_t before = context->part_bytes[token];

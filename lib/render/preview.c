@@ -298,26 +298,31 @@ static mt_status measure_skipped(mt_context *context, job *j)
 {
     mt_preview_series *series = j->series;
     mt_image *scratch = NULL, *kept = j->picture.image;
-    mt_occluder occluder;
-    int part = mt_part_begin_skipped(context, "tree", "what a tree of boxes would have taken");
-    mt_ray_profile profile = (mt_ray_profile)series->options.triangle_test;
-    mt_status status = mt_occluder_init(context, &series->model, profile, true, &occluder);
-    mt_part_end(context, part);
+    mt_occluder own, *occluder = &series->occluder;
+    mt_status status = MT_OK;
+    memset(&own, 0, sizeof own);
+    if (!series->has_occluder) {
+        int part = mt_part_begin_skipped(context, "tree", "what a tree of boxes would have taken");
+        mt_ray_profile profile = (mt_ray_profile)series->options.triangle_test;
+        status = mt_occluder_init(context, &series->model, profile, true, &own);
+        mt_part_end(context, part);
+        occluder = &own;
+    }
     if (status == MT_OK) {
         status = mt_image_create_unfilled(context, kept->width, kept->height, kept->channel_count, &scratch);
     }
     if (status == MT_OK && !series->by_rays) {
-        j->picture.rays = &occluder;
+        j->picture.rays = occluder;
         status = draw_scratch(context, j, scratch, "a ray for each sample", "the whole drawing, in image order");
     }
-    j->picture.rays = series->by_rays ? &occluder : NULL;
+    j->picture.rays = series->by_rays ? occluder : NULL;
     if (status == MT_OK && !series->options.shadows) {
-        j->look.shadows = &occluder;
+        j->look.shadows = occluder;
         status = draw_scratch(context, j, scratch, "shadow rays", "the whole drawing, with shadows");
         j->look.shadows = NULL;
     }
     mt_image_destroy(context, scratch);
-    mt_occluder_release(context, &occluder);
+    mt_occluder_release(context, &own);
     return status;
 }
 

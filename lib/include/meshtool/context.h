@@ -127,7 +127,7 @@ typedef struct mt_part {
 /* Begins a part; returns a token for mt_part_end. Without options.explain these do nothing. */
 int mt_part_begin(mt_context *context, const char *name, const char *reason);
 void mt_part_end(mt_context *context, int token);
-/* Begins to measure a part that the result does without. */
+/* Begins to measure a part that the result does without; until its end no other part is recorded. */
 int mt_part_begin_skipped(mt_context *context, const char *name, const char *reason);
 void mt_part_skip(mt_context *context, const char *name, const char *reason);
 /* The parts so far, in the order of their beginning; *count receives their number. */
