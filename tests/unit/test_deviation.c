@@ -320,6 +320,32 @@ static void open_and_turned_meshes_have_no_inside(void **state)
     test_context_end(context);
 }
 
+/* The n-th allocation fails, for every n: the error is told, and everything given back. */
+static void running_out_of_memory_leaves_nothing_behind(void **state)
+{
+    (void)state;
+    mt_status status = MT_ERROR_OUT_OF_MEMORY;
+    for (uint64_t failing = 1; status != MT_OK; failing++) {
+        mt_context *makes = test_context();
+        mt_mesh *a = test_torus(makes, 8, 6, true), *b = generated(makes, "cube", 0);
+        mt_context *context = mt_context_create(&(mt_context_options){.failing_allocation = failing});
+        mt_deviation d;
+        mt_signed_distance *signed_distance = NULL;
+        status = mt_measure_deviation(context, a, b, &(mt_deviation_options){.keep_distances = true}, &d);
+        if (status == MT_OK) {
+            status = mt_signed_distance_create(context, b, &signed_distance);
+        }
+        assert_true(status == MT_OK || mt_context_error(context)->status == MT_ERROR_OUT_OF_MEMORY);
+        assert_true(status == MT_OK || (status == MT_ERROR_OUT_OF_MEMORY && !signed_distance));
+        mt_signed_distance_destroy(context, signed_distance);
+        mt_deviation_release(context, &d);
+        test_context_end(context);
+        mt_mesh_destroy(makes, a);
+        mt_mesh_destroy(makes, b);
+        test_context_end(makes);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -333,6 +359,7 @@ int main(void)
         cmocka_unit_test(signed_distances_of_a_cube_are_exact),
         cmocka_unit_test(signs_hold_around_sharp_corners),
         cmocka_unit_test(open_and_turned_meshes_have_no_inside),
+        cmocka_unit_test(running_out_of_memory_leaves_nothing_behind),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
