@@ -15,7 +15,7 @@ typedef struct mt_cut_side {
 
 typedef struct mt_subdivide_cut {
     mt_mesh *mesh;                                   /* cut apart, with all that was asked to be sharp; the cut's */
-    mt_index *sources;                               /* per vertex of it the one that it is a copy of */
+    mt_index *sources;                               /* per vertex the one that it is a copy of; copies come last */
     mt_index asked_crease_count, asked_corner_count; /* of the mesh's: those after are implied by the cut */
     mt_index edge_count;                             /* shared edges at the level in work */
     mt_index side_count;
@@ -32,6 +32,13 @@ void mt_subdivide_cut_release(mt_context *context, mt_subdivide_cut *cut);
 
 /* Notes what is to be joined of the next level's vertices; `topology` is this level's. */
 mt_status mt_subdivide_cut_refine(mt_context *context, const mt_subdivide_topology *topology, mt_subdivide_cut *cut);
+
+/* Whether any vertex was copied. */
+static inline bool mt_subdivide_cut_has_copies(const mt_subdivide_cut *cut)
+{
+    mt_index count = cut->mesh->vertex_count;
+    return count > 0 && cut->sources[count - 1] != count - 1;
+}
 
 /* Replaces *result by one in which the copies are one vertex again. On failure *result is as it was. */
 mt_status mt_subdivide_cut_join(mt_context *context, const mt_subdivide_cut *cut, mt_mesh **result);

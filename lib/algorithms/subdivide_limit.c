@@ -165,7 +165,7 @@ mt_status mt_subdivide_to_limit(mt_context *context, mt_subdivide_state *state, 
         status = mt_limit_rings_create(context, &job.rings);
     }
     if (status == MT_OK) {
-        bool joined = state->cut && state->cut->mesh->vertex_count > state->cut->source_count;
+        bool joined = state->cut && mt_subdivide_cut_has_copies(state->cut);
         status = move_to_limit(context, &job, joined, result);
         mt_limit_rings_release(context, &job.rings);
     }
