@@ -17,6 +17,7 @@
 #define RANGE_SHIFT_MINIMUM 11   /* some 12000 sides a range: they and their counters fit the second-level cache */
 #define RANGE_COUNT_MAXIMUM 1024 /* one cache line written to for each */
 #define RANGES_PER_TASK 4
+#define LOOK_AHEAD 48 /* sides whose places in the result memory is given time to fetch */
 
 /* A side dealt to its range: the vertex within the range and whether the side reaches it (1) or leaves it (0). */
 typedef struct ranged_side {
@@ -159,18 +160,30 @@ static void deal_to_vertices(const ranged_side *from, mt_index count, mt_index k
     }
 }
 
+/* Asks for what will be written for these sides: with faces in a random order, places far apart. */
+static void look_ahead(const mt_index *next_side, const edge_side *sides, mt_index begin, mt_index end)
+{
+    for (mt_index i = begin; i < end; i++) {
+        __builtin_prefetch(&next_side[sides[i].corner], 1);
+    }
+}
+
 static void pair_range(const pairing *job, mt_index range, const range_scratch *scratch)
 {
     mt_index begin = job->range_begins[range];
     mt_index count = job->range_begins[range + 1] - begin;
     mt_index vertex_count = range_vertex_count(job, range);
     deal_to_vertices(job->sides + begin, count, 2 * vertex_count, scratch->ends, scratch->sides);
+    mt_index *next_side = job->pairs->next_side;
     edge_tally tally = {0};
-    mt_index at = 0;
+    mt_index at = 0, ahead = 0;
     for (mt_index vertex = 0; vertex < vertex_count; vertex++) {
         mt_index end = scratch->ends[2 * vertex + 1];
         mt_index up_count = scratch->ends[2 * vertex] - at;
-        mt_edge_bucket_link(scratch->sides + at, up_count, end - at, scratch->spare, job->pairs->next_side, &tally);
+        mt_index wanted = count - end > LOOK_AHEAD ? end + LOOK_AHEAD : count;
+        look_ahead(next_side, scratch->sides, ahead, wanted);
+        ahead = wanted;
+        mt_edge_bucket_link(scratch->sides + at, up_count, end - at, scratch->spare, next_side, &tally);
         at = end;
     }
     job->tallies[range] = tally;

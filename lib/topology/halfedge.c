@@ -46,9 +46,14 @@ static ring_step walk_ring(const void *structure, mt_index vertex, mt_index at)
     return (ring_step){halfedges[next].head, next ^ 1u};
 }
 
+static const void *place_of(const void *structure, mt_index at)
+{
+    return &((const mt_halfedge_mesh *)structure)->halfedges[at];
+}
+
 static void check_rings(void *user, uint64_t begin, uint64_t end)
 {
-    ring_check_vertices(walk_ring, user, begin, end);
+    ring_check_vertices(walk_ring, place_of, user, begin, end);
 }
 
 /* Whether the rings of all vertices meet every half-edge, and none a neighbour twice. */

@@ -19,7 +19,7 @@
 #define RING_USUAL_ROWS 6    /* steps that lanes take together, enough for most rings of triangles */
 #define RING_ROWS 8          /* steps that they take where one needs more; longer rings are walked alone */
 #define RING_LENGTH_MAX 1024 /* longer ones are not decided: comparing each with each would cost too much */
-#define RING_WALKERS 32
+#define RING_WALKERS 64
 #define RING_GRAIN 16384
 
 typedef struct ring_step {
@@ -28,6 +28,9 @@ typedef struct ring_step {
 } ring_step;
 
 typedef ring_step (*ring_walk)(const void *structure, mt_index vertex, mt_index at);
+
+/* What the step from there reads first. */
+typedef const void *(*ring_place)(const void *structure, mt_index at);
 
 typedef struct ring_check {
     const void *structure;
@@ -179,8 +182,10 @@ MT_ALWAYS_INLINE void ring_compare_vertices(ring_walk walk, const ring_check *ch
     }
 }
 
-MT_ALWAYS_INLINE void ring_count_vertices(ring_walk walk, const ring_check *check, uint64_t begin, uint64_t end,
-                                          ring_tally *tally)
+/* Memory is asked for the place of a walker's next step as soon as that is known: else, where neighbours lie far apart,
+ * each ring's end, which cannot be foreseen, would stop all that wait. */
+MT_ALWAYS_INLINE void ring_count_vertices(ring_walk walk, ring_place place, const ring_check *check, uint64_t begin,
+                                          uint64_t end, ring_tally *tally)
 {
     ring_walker walkers[RING_WALKERS];
     mt_index active = 0;
@@ -188,7 +193,10 @@ MT_ALWAYS_INLINE void ring_count_vertices(ring_walk walk, const ring_check *chec
         while (active < RING_WALKERS && vertex < end) {
             mt_index at = check->vertex_begins[vertex];
             walkers[active] = (ring_walker){(mt_index)vertex++, at, at};
-            active += at != MT_NONE;
+            if (at != MT_NONE) {
+                __builtin_prefetch(place(check->structure, at));
+                active++;
+            }
         }
         for (mt_index i = 0; i < active;) {
             ring_walker *walker = &walkers[i];
@@ -197,6 +205,7 @@ MT_ALWAYS_INLINE void ring_count_vertices(ring_walk walk, const ring_check *chec
             if (walker->at == walker->begin) {
                 *walker = walkers[--active];
             } else {
+                __builtin_prefetch(place(check->structure, walker->at));
                 i++;
             }
         }
@@ -204,11 +213,12 @@ MT_ALWAYS_INLINE void ring_count_vertices(ring_walk walk, const ring_check *chec
 }
 
 /* The body of a parallel loop over vertices, for one kind of walk. */
-MT_ALWAYS_INLINE void ring_check_vertices(ring_walk walk, ring_check *check, uint64_t begin, uint64_t end)
+MT_ALWAYS_INLINE void ring_check_vertices(ring_walk walk, ring_place place, ring_check *check, uint64_t begin,
+                                          uint64_t end)
 {
     ring_tally tally = {0};
     if (check->edges_are_known) {
-        ring_count_vertices(walk, check, begin, end, &tally);
+        ring_count_vertices(walk, place, check, begin, end, &tally);
     } else {
         ring_compare_vertices(walk, check, begin, end, &tally);
     }

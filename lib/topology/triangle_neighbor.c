@@ -42,9 +42,14 @@ static ring_step walk_fan(const void *structure, mt_index vertex, mt_index at)
     return (ring_step){triangles->vertices[side], next};
 }
 
+static const void *place_of(const void *structure, mt_index at)
+{
+    return &((const mt_triangle_neighbor_mesh *)structure)->neighbors[mt_triangle_previous_corner(at)];
+}
+
 static void check_fans(void *user, uint64_t begin, uint64_t end)
 {
-    ring_check_vertices(walk_fan, user, begin, end);
+    ring_check_vertices(walk_fan, place_of, user, begin, end);
 }
 
 /* Whether the fans of all vertices meet every corner, and none a neighbour twice. On the boundary the first neighbour
