@@ -30,6 +30,7 @@ typedef struct winged_filling {
     mt_index *corner_side; /* next_side, as far as it has been replaced by 2 * edge + side */
     mt_index corner_count;
     mt_index count; /* sides of edges so far, two an edge */
+    const mt_index *corner_vertices;
 } winged_filling;
 
 /* Corners that memory is given to fetch what a side's earlier corner holds, and then to fetch the edge to write. */
@@ -47,6 +48,7 @@ MT_ALWAYS_INLINE void look_ahead(const winged_filling *filling, mt_index corner)
     later = corner + LOOK_AHEAD;
     earlier = filling->corner_side[later];
     mt_index side = earlier < corner ? filling->corner_side[earlier] : filling->count;
+    __builtin_prefetch(&filling->records.vertex_edge[filling->corner_vertices[later]], 1);
     __builtin_prefetch(&filling->records.edges[side >> 1], 1);
 }
 
@@ -138,7 +140,8 @@ static void fill_faces(const mt_mesh *mesh, mt_edge_pairs *pairs, mt_winged_edge
 {
     winged_filling filling = {.records = {(edge_record *)structure->edges, structure->vertex_edge},
                               .corner_side = pairs->next_side,
-                              .corner_count = mesh->corner_count};
+                              .corner_count = mesh->corner_count,
+                              .corner_vertices = mesh->corner_vertices};
     mt_index *face_edge = structure->face_edge;
     for (mt_index face = 0; face < mesh->face_count; face++) {
         mt_index begin = mt_mesh_face_begin(mesh, face);
