@@ -198,6 +198,7 @@ static void make_even(mt_limit_ring *ring, mt_index spoke)
 static mt_vec3 settle_dart(mt_limit_sharp_ring *sharp, mt_index spoke, double largest)
 {
     mt_vec3 along, across, moved_along, unused;
+    mt_vec3 smooth = mt_limit_normal(&sharp->ring, MT_VERTEX_SMOOTH, (mt_limit_sector){0, sharp->ring.face_count});
     mt_limit_smooth_tangents(&sharp->ring, spoke, &along, &across);
     make_even(&sharp->ring, spoke);
     double moved = 1;
@@ -208,7 +209,8 @@ static mt_vec3 settle_dart(mt_limit_sharp_ring *sharp, mt_index spoke, double la
         moved = mt_vec3_max_abs(mt_vec3_subtract(moved_along, along));
         along = moved_along;
     }
-    return mt_vec3_normalize(mt_vec3_cross(along, mt_vec3_normalize(across)));
+    mt_vec3 normal = mt_vec3_normalize(mt_vec3_cross(along, mt_vec3_normalize(across)));
+    return mt_vec3_max_abs(normal) > 0 ? normal : smooth; /* without tangents: as at a smooth vertex */
 }
 
 mt_subdivide_vertex_rule mt_limit_refine(mt_limit_sharp_ring *sharp, mt_vec3 *normal)
