@@ -1,4 +1,4 @@
-// Catmull-Clark beside CGAL, OpenMesh and the published masks, one and two levels.
+// Catmull-Clark beside CGAL, OpenMesh and the published masks, one and two levels; Loop beside CGAL and OpenMesh.
 //
 // The masks are written out here once more, vertex by vertex with maps of edges, and compared by number: so the order
 // of vertices and faces is checked too. CGAL and OpenMesh number new vertices in their own way, and are compared by
@@ -8,8 +8,10 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/subdivision_method_3.h>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Utils/vector_traits.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
+#include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
 
 #include <meshtool/meshtool.h>
 
@@ -249,12 +251,18 @@ std::size_t unmatched(const std::vector<Point> &ours, const std::vector<Point> &
 
 struct DoubleTraits : OpenMesh::DefaultTraits {
     using Point = OpenMesh::Vec3d;
+    using Normal = OpenMesh::Vec3d; // LoopT casts points to it
 };
 using OpenMeshMesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
+using CatmullClark = OpenMesh::Subdivider::Uniform::CatmullClarkT<OpenMeshMesh, double>;
+using OpenMeshTriangles = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
+using Loop = OpenMesh::Subdivider::Uniform::LoopT<OpenMeshTriangles, double>;
 using CgalMesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
 
 // Each builds the peer's mesh, refines it and returns its points; empty when the peer refused a face.
-std::vector<Point> cgal_points(const Polygons &mesh, unsigned levels)
+enum class Scheme { catmull_clark, loop };
+
+std::vector<Point> cgal_points(const Polygons &mesh, unsigned levels, Scheme scheme = Scheme::catmull_clark)
 {
     CgalMesh built;
     for (const Point &p : mesh.points) {
@@ -266,7 +274,12 @@ std::vector<Point> cgal_points(const Polygons &mesh, unsigned levels)
             return {};
         }
     }
-    CGAL::Subdivision_method_3::CatmullClark_subdivision(built, CGAL::parameters::number_of_iterations(levels));
+    auto count = CGAL::parameters::number_of_iterations(levels);
+    if (scheme == Scheme::loop) {
+        CGAL::Subdivision_method_3::Loop_subdivision(built, count);
+    } else {
+        CGAL::Subdivision_method_3::CatmullClark_subdivision(built, count);
+    }
     std::vector<Point> points;
     for (auto v : built.vertices()) {
         auto p = built.point(v);
@@ -275,14 +288,14 @@ std::vector<Point> cgal_points(const Polygons &mesh, unsigned levels)
     return points;
 }
 
-std::vector<Point> openmesh_points(const Polygons &mesh, unsigned levels)
+template <class Mesh, class Subdivider> std::vector<Point> openmesh_points(const Polygons &mesh, unsigned levels)
 {
-    OpenMeshMesh built;
+    Mesh built;
     for (const Point &p : mesh.points) {
-        built.add_vertex(OpenMeshMesh::Point(p[0], p[1], p[2]));
+        built.add_vertex(typename Mesh::Point(p[0], p[1], p[2]));
     }
     for (const Face &face : mesh.faces) {
-        std::vector<OpenMeshMesh::VertexHandle> corners;
+        std::vector<typename Mesh::VertexHandle> corners;
         for (mt_index v : face) {
             corners.emplace_back(static_cast<int>(v));
         }
@@ -290,7 +303,7 @@ std::vector<Point> openmesh_points(const Polygons &mesh, unsigned levels)
             return {};
         }
     }
-    OpenMesh::Subdivider::Uniform::CatmullClarkT<OpenMeshMesh, double> subdivider;
+    Subdivider subdivider;
     subdivider.attach(built);
     subdivider(levels);
     subdivider.detach();
@@ -349,7 +362,8 @@ void compare_with_peers(const std::string &name, const Polygons &input, const Po
     for (std::size_t i = 0; i < skip.size(); i++) {
         skip[i] = skip[i] || isolated[i];
     }
-    std::vector<Point> openmesh = open && levels > 1 ? std::vector<Point>() : openmesh_points(used, levels);
+    std::vector<Point> openmesh =
+        open && levels > 1 ? std::vector<Point>() : openmesh_points<OpenMeshMesh, CatmullClark>(used, levels);
     if (open && levels > 1) {
         std::printf("skipped %s: OpenMesh's boundary mask is not the cubic B-spline's\n", name.c_str());
     } else if (openmesh.empty()) {
@@ -357,6 +371,39 @@ void compare_with_peers(const std::string &name, const Polygons &input, const Po
     } else {
         expect(unmatched(ours.points, openmesh, reach, skip) == 0, name + ": OpenMesh");
     }
+}
+
+// The mesh cut into triangles, by Loop's scheme. Each vertex of the peers is asked for, not the other way round: ours
+// has the isolated ones, too.
+void compare_loop(mt_context *context, const std::string &name, const mt_mesh *mesh, unsigned levels)
+{
+    mt_mesh *triangles = nullptr, *refined = nullptr;
+    mt_subdivide_options options = {};
+    options.scheme = MT_SUBDIVIDE_SCHEME_LOOP;
+    options.level_count = levels;
+    std::string label = name + ", Loop, level " + std::to_string(levels);
+    if (mt_mesh_triangulate(context, mesh, &triangles) != MT_OK ||
+        mt_subdivide(context, triangles, &options, &refined) != MT_OK) {
+        std::printf("skipped %s: %s\n", label.c_str(), mt_context_error(context)->message);
+        mt_context_clear_error(context);
+        mt_mesh_destroy(context, triangles);
+        return;
+    }
+    Polygons input = polygons_of(triangles), ours = polygons_of(refined), used = without_isolated(input);
+    double reach = tolerance * diagonal(input);
+    std::vector<Point> cgal = cgal_points(used, levels, Scheme::loop);
+    std::vector<Point> openmesh = openmesh_points<OpenMeshTriangles, Loop>(used, levels);
+    for (const auto &[peer, points] : {std::pair("CGAL", &cgal), std::pair("OpenMesh", &openmesh)}) {
+        if (points->empty()) {
+            std::printf("skipped %s: %s refuses a face\n", label.c_str(), peer);
+            continue;
+        }
+        std::size_t isolated = input.points.size() - used.points.size();
+        expect(points->size() + isolated == ours.points.size(), label + ": vertices of " + peer);
+        expect(unmatched(*points, ours.points, reach, {}) == 0, label + ": " + peer);
+    }
+    mt_mesh_destroy(context, refined);
+    mt_mesh_destroy(context, triangles);
 }
 
 // Level 2 of larger meshes would only take long.
@@ -389,6 +436,7 @@ void compare(mt_context *context, const std::string &name, mt_mesh *mesh)
         double reach = tolerance * diagonal(input);
         compare_with_masks(label, ours, masks, reach);
         compare_with_peers(label, input, ours, level, boundary, reach);
+        compare_loop(context, name, mesh, level);
     }
 }
 
