@@ -141,15 +141,6 @@ static void make_sharpness(mt_limit_sharp_ring *sharp)
     }
 }
 
-static double extent_of(const mt_limit_ring *ring)
-{
-    double extent = 0;
-    for (mt_index i = 0; i < mt_limit_spoke_count(ring); i++) {
-        extent = fmax(extent, mt_vec3_max_abs(ring->ends[i]));
-    }
-    return extent;
-}
-
 /* Moves the center, and doubles what is left while it stays below `largest`. */
 static void move_center(mt_limit_ring *ring, mt_vec3 move, double largest)
 {
@@ -157,7 +148,7 @@ static void move_center(mt_limit_ring *ring, mt_vec3 move, double largest)
     for (mt_index i = 0; i < mt_limit_spoke_count(ring); i++) {
         ring->ends[i] = mt_vec3_subtract(ring->ends[i], move);
     }
-    double factor = extent_of(ring) < 0.5 * largest && ring->scale < 0x1p1000 ? 2 : 1;
+    double factor = mt_limit_ring_extent(ring) < 0.5 * largest && ring->scale < 0x1p1000 ? 2 : 1;
     for (mt_index i = 0; i < mt_limit_spoke_count(ring); i++) {
         ring->ends[i] = mt_vec3_scale(ring->ends[i], factor);
     }
@@ -215,7 +206,7 @@ static mt_vec3 settle_dart(mt_limit_sharp_ring *sharp, mt_index spoke, double la
 
 mt_subdivide_vertex_rule mt_limit_refine(mt_limit_sharp_ring *sharp, mt_vec3 *normal)
 {
-    double largest = extent_of(&sharp->ring);
+    double largest = mt_limit_ring_extent(&sharp->ring);
     while (is_changing(sharp)) {
         refine(sharp, largest);
     }

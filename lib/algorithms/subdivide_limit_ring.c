@@ -82,7 +82,7 @@ static mt_index step(const mt_limit_ring *ring, mt_index spoke, mt_index count)
     return ring->closed ? (mt_index)(((uint64_t)spoke + count) % ring->face_count) : spoke + count;
 }
 
-static double longest(const mt_limit_ring *ring)
+double mt_limit_ring_extent(const mt_limit_ring *ring)
 {
     double largest = 0;
     for (mt_index i = 0; i < mt_limit_spoke_count(ring); i++) {
@@ -94,7 +94,7 @@ static double longest(const mt_limit_ring *ring)
 /* The area vectors of a sector's faces: of the triangles at the center, or with `whole` of the quads. */
 static mt_vec3 area_vector(const mt_limit_ring *ring, mt_limit_sector sector, bool whole)
 {
-    double scale = mt_power_of_two_scale(longest(ring));
+    double scale = mt_power_of_two_scale(mt_limit_ring_extent(ring));
     vector_sum sum = {{0, 0}, {0, 0}, {0, 0}};
     for (mt_index i = 0; i < sector.face_count; i++) {
         mt_index face = step(ring, sector.first, i);
@@ -162,7 +162,7 @@ void mt_limit_smooth_tangents(const mt_limit_ring *ring, mt_index first, mt_vec3
 
 static mt_vec3 normal_of(const mt_limit_ring *ring, mt_vec3 along, mt_vec3 across)
 {
-    double least = TANGENT_IS_NONE * longest(ring);
+    double least = TANGENT_IS_NONE * mt_limit_ring_extent(ring);
     if (!(mt_vec3_max_abs(along) > least && mt_vec3_max_abs(across) > least)) {
         return mt_vec3_make(0, 0, 0);
     }

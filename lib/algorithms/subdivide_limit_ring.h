@@ -32,6 +32,9 @@ static inline mt_index mt_limit_next_spoke(const mt_limit_ring *ring, mt_index f
     return ring->closed && face + 1 == ring->face_count ? 0 : face + 1;
 }
 
+/* The largest component of the spokes; 0 of a point. */
+double mt_limit_ring_extent(const mt_limit_ring *ring);
+
 /* Faces from one sharp spoke to the next, over which the surface is smooth; all of a ring that has none. */
 typedef struct mt_limit_sector {
     mt_index first, face_count;

@@ -5,6 +5,7 @@
 #include <meshtool/edge_pairs.h>
 #include <meshtool/triangulate.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -206,5 +207,20 @@ void test_add_uvs(mt_context *context, test_random *random, mt_mesh *mesh)
     for (mt_index corner = 0; corner < mesh->corner_count; corner++) {
         uv->indices[corner] =
             mesh->corner_vertices[corner] + (test_random_below(random, 6) == 0 ? mesh->vertex_count : 0);
+    }
+}
+
+void test_expect_within_hull(test_random *random, const mt_mesh *cage, const mt_mesh *refined)
+{
+    for (unsigned i = 0; i < 50; i++) {
+        mt_vec3 direction = {test_random_unit(random) - 0.5, test_random_unit(random) - 0.5,
+                             test_random_unit(random) - 0.5};
+        double farthest = -INFINITY;
+        for (mt_index vertex = 0; vertex < cage->vertex_count; vertex++) {
+            farthest = fmax(farthest, mt_vec3_dot(direction, mt_mesh_position(cage, vertex)));
+        }
+        for (mt_index vertex = 0; vertex < refined->vertex_count; vertex++) {
+            assert_true(mt_vec3_dot(direction, mt_mesh_position(refined, vertex)) <= farthest + 1e-14);
+        }
     }
 }

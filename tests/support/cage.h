@@ -25,4 +25,7 @@ void test_sharpen(mt_context *context, test_random *random, mt_mesh *mesh);
 /* Adds UVs with seams: most corners have their vertex's value, some another. */
 void test_add_uvs(mt_context *context, test_random *random, mt_mesh *mesh);
 
+/* No vertex of the refined mesh lies farther out than the cage, in any of many directions. */
+void test_expect_within_hull(test_random *random, const mt_mesh *cage, const mt_mesh *refined);
+
 #endif

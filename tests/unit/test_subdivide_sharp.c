@@ -91,17 +91,7 @@ static void check_hull(mt_context *context, test_random *random, mt_mesh *cage)
 {
     mt_subdivide_options options = {.level_count = 3};
     mt_mesh *refined = subdivide(context, cage, &options);
-    for (unsigned i = 0; i < 50; i++) {
-        mt_vec3 direction = {test_random_unit(random) - 0.5, test_random_unit(random) - 0.5,
-                             test_random_unit(random) - 0.5};
-        double farthest = -INFINITY;
-        for (mt_index vertex = 0; vertex < cage->vertex_count; vertex++) {
-            farthest = fmax(farthest, mt_vec3_dot(direction, mt_mesh_position(cage, vertex)));
-        }
-        for (mt_index vertex = 0; vertex < refined->vertex_count; vertex++) {
-            assert_true(mt_vec3_dot(direction, mt_mesh_position(refined, vertex)) <= farthest + 1e-14);
-        }
-    }
+    test_expect_within_hull(random, cage, refined);
     mt_mesh_destroy(context, refined);
 }
 
