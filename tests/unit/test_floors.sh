@@ -8,7 +8,7 @@ declare -A public_floor=(
     [types]=base [context]=base [checked]=base [clones]=base [vector]=base [elementary]=base [predicates]=base
     [attribute]=mesh [mesh]=mesh [generate]=mesh [triangulate]=mesh
     [edge_pairs]=topology [halfedge]=topology
-    [ray]=spatial [closest_point]=spatial [surface_tree]=spatial
+    [ray]=spatial [ray_structure]=spatial [closest_point]=spatial [surface_tree]=spatial
     [image]=image
     [deviation]=algorithms [signed_distance]=algorithms [manifold]=algorithms [subdivide]=algorithms
     [preview]=render

@@ -41,6 +41,7 @@
 #include <meshtool/aabb_tree.h>     /* a tree of boxes over triangles */
 #include <meshtool/closest_point.h> /* nearest points of triangles, wires and points */
 #include <meshtool/ray.h>           /* where a ray meets a triangle */
+#include <meshtool/ray_structure.h> /* what rays search: boxes, a grid, a BSP tree, or nothing */
 #include <meshtool/surface_tree.h>  /* a wide tree for rays and closest points */
 
 /* Algorithms */

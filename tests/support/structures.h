@@ -1,0 +1,26 @@
+/* Every structure that rays can search, over one mesh, beside brute force. */
+#ifndef TESTS_SUPPORT_STRUCTURES_H
+#define TESTS_SUPPORT_STRUCTURES_H
+
+#include "tests/support/rays.h"
+
+#include <meshtool/ray_structure.h>
+
+typedef struct test_structures {
+    test_target target;
+    mt_ray_structure *all[MT_RAY_STRUCTURE_COUNT];
+} test_structures;
+
+/* Takes the mesh over; checks each structure's invariants. Not to be moved. */
+void test_structures_init(test_structures *structures, mt_context *context, mt_mesh *mesh, mt_ray_profile profile);
+void test_structures_end(test_structures *structures);
+
+/* A ray in the plane of a triangle or off it by a hair: along it, or aimed at a point of it. */
+mt_ray test_grazing_ray(const test_target *target, test_random *random);
+
+/* Shoots `count` rays, random ones and grazing ones in turn, through every structure and by brute force; fails the
+ * test, with the structure's name and the ray, where the two differ in triangle, t or weights, or a query for any hit
+ * disagrees. */
+void test_structures_agree(const test_structures *structures, const char *mesh, uint64_t count, uint64_t seed);
+
+#endif
