@@ -61,5 +61,6 @@ extern const cli_command cli_preview_command;
 extern const cli_command cli_repair_command;
 extern const cli_command cli_subdivide_command;
 extern const cli_command cli_topology_command;
+extern const cli_command cli_tradeoff_command;
 
 #endif

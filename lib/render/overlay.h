@@ -2,8 +2,9 @@
 #ifndef MESHTOOL_RENDER_OVERLAY_H
 #define MESHTOOL_RENDER_OVERLAY_H
 
-#include "lib/render/ink.h"
 #include "lib/render/series.h"
+
+#include <meshtool/ink.h>
 
 /* Draws axes and scale bar where they are asked for; fills the report. */
 void mt_overlay_draw(const mt_preview_series *series, const mt_camera *camera, mt_image *image,

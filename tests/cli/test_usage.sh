@@ -8,7 +8,12 @@ run 0 --version
 prints "meshtool "
 run 2 subdivde x
 says 'unknown command "subdivde"; did you mean subdivide?'
-says "check-manifold, repair, info, topology, preview, subdivide, distance, convert, generate, formats and help"
+unknown=$err
+run 0 help
+commands=$(printf '%s\n' "$out" | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
+holds "help lists at least ten commands" test "$(printf '%s\n' "$commands" | wc -l)" -ge 10
+err=$unknown
+says "$(printf '%s\n' "$commands" | sed '$!{$!N;s/\n/, /}' | paste -sd, | sed 's/,\([^ ]\)/, \1/g; s/, \([a-z-]*\)$/ and \1/')"
 run 2 frobnicate
 case $err in *"did you mean"*) fail "a far name is suggested" ;; *) pass ;; esac
 run 2 --json info

@@ -54,9 +54,11 @@
 
 /* Pictures */
 #include <meshtool/image.h>   /* float raster */
+#include <meshtool/ink.h>     /* lines and letters on a picture */
 #include <meshtool/preview.h> /* a picture of any mesh */
 
 /* Files */
+#include <meshtool/file.h>         /* any bytes, written as all outputs are */
 #include <meshtool/image_format.h> /* PNG, PPM */
 #include <meshtool/mesh_format.h>  /* OBJ, OFF, PLY, STL */
 

@@ -1,6 +1,6 @@
 /* Anti-aliased by the distance to the line, in linear light. Letters are polylines on a grid of 4 x 6, so that no font
  * file is needed. */
-#include "lib/render/ink.h"
+#include <meshtool/ink.h>
 
 #include <math.h>
 #include <string.h>
@@ -53,6 +53,15 @@ static const struct {
     {'X', "0046 4006"},
     {'Y', "0023 4023 2326"},
     {'Z', "00400646"},
+    {'/', "0640"},
+    {'%', "0640 0001 4546"},
+    {':', "2222 2525"},
+    {',', "2517"},
+    {'(', "30121436"},
+    {')', "10323416"},
+    {'=', "0242 0444"},
+    {'?', "01103041422324 2626"},
+    {'*', "2125 0244 0442"},
 };
 
 static void blend(float *pixel, uint32_t channels, mt_vec3 color, double cover)

@@ -1,0 +1,11 @@
+/* The knobs' records. */
+#ifndef MESHTOOL_CLI_TRADEOFF_KNOBS_H
+#define MESHTOOL_CLI_TRADEOFF_KNOBS_H
+
+#include "tradeoff/tradeoff.h"
+
+extern const tradeoff_knob tradeoff_samples;
+extern const tradeoff_knob tradeoff_triangle_test;
+extern const tradeoff_knob tradeoff_visibility;
+
+#endif

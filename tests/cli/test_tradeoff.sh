@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# meshtool tradeoff: rows as text and JSON, plots, and what is refused. No time is looked at.
+. tests/cli/lib.sh
+
+"$meshtool" generate torus -o "$folder/torus.ply" --resolution 24
+
+run 0 tradeoff "$folder/torus.ply" --budget 0 --knob triangle-test
+prints "Which test says where a ray meets a triangle?"
+prints "watertight: no ray slips through"
+run 0 tradeoff "$folder/torus.ply" --budget 0 --knob triangle-test --json
+for key in '"knob": "triangle-test"' '"level": "exact"' '"seconds": ' '"spread": null' '"peak_bytes": ' '"says": ' \
+  '"missed_at_vertices": 0.0' '"reference_seconds": ' '"skipped": \[\]'; do
+  holds "JSON has $key" grep -q -- "$key" <<<"$out"
+done
+
+# Runs that are repeated have a spread.
+run 0 tradeoff "$folder/torus.ply" --budget 2 --knob visibility --json
+case $out in *'"spread": null'*) fail "a spread is missing: $out" ;; *) pass ;; esac
+holds "nothing differs" test "$(grep -o '"differing_pixels": 0.0' <<<"$out" | wc -l)" = 2
+
+# Plots: SVG that ends, PNG by its content; nothing new after a failure.
+run 0 tradeoff "$folder/torus.ply" --budget 0 --knob samples --plot "$folder/plot.svg" -q
+holds "an SVG" grep -q '^<svg xmlns' "$folder/plot.svg"
+holds "a whole SVG" grep -q '^</svg>' "$folder/plot.svg"
+holds "a label" grep -q '>adaptive' "$folder/plot.svg"
+run 0 tradeoff "$folder/torus.ply" --budget 0 --knob samples --plot "$folder/plot.png" -q
+holds "a PNG" grep -q PNG "$folder/plot.png"
+run 2 tradeoff "$folder/torus.ply" --plot "$folder/plot.doc"
+run 2 tradeoff "$folder/torus.ply" --knob sampels
+says 'no knob is called "sampels"; did you mean samples?'
+run 3 tradeoff "$folder/bad.off" --plot "$folder/none.svg"
+holds "no plot of a bad mesh" test ! -e "$folder/none.svg"
+
+# A mesh without faces has no rays to trace, and says so.
+printf 'OFF\n2 0 0\n0 0 0\n1 1 1\n' >"$folder/points.off"
+run 0 tradeoff "$folder/points.off" --budget 0
+prints "triangle-test: left out, the mesh has no faces"
+finish
