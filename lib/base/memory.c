@@ -146,6 +146,20 @@ void mt_free(mt_context *context, void *block)
     }
 }
 
+mt_status mt_hold_bytes(mt_context *context, uint64_t size)
+{
+    if (reserve_bytes(context, size)) {
+        return MT_OK;
+    }
+    record_missing_memory(context, size);
+    return MT_ERROR_OUT_OF_MEMORY;
+}
+
+void mt_release_bytes(mt_context *context, uint64_t size)
+{
+    atomic_fetch_sub(&context->bytes, size);
+}
+
 char *mt_duplicate_string(mt_context *context, const char *text)
 {
     size_t size = strlen(text) + 1;

@@ -60,6 +60,22 @@ static void the_limit_holds(void **state)
     test_context_end(context);
 }
 
+static void held_bytes_count_like_allocated_ones(void **state)
+{
+    (void)state;
+    mt_context_options options = {.memory_limit = 1000};
+    mt_context *context = mt_context_create(&options);
+    assert_int_equal(mt_hold_bytes(context, 600), MT_OK);
+    assert_int_equal(mt_context_bytes(context), 600);
+    assert_null(mt_try_allocate(context, 401));
+    assert_int_equal(mt_hold_bytes(context, 401), MT_ERROR_OUT_OF_MEMORY);
+    assert_int_equal(mt_context_error(context)->status, MT_ERROR_OUT_OF_MEMORY);
+    assert_int_equal(mt_context_bytes(context), 600);
+    mt_release_bytes(context, 600);
+    assert_int_equal(mt_context_peak_bytes(context), 600);
+    test_context_end(context);
+}
+
 static void the_chosen_allocation_fails_and_all_after_it(void **state)
 {
     (void)state;
@@ -191,6 +207,7 @@ int main(void)
         cmocka_unit_test(bytes_are_counted_and_given_back),
         cmocka_unit_test(reallocation_keeps_the_contents),
         cmocka_unit_test(the_limit_holds),
+        cmocka_unit_test(held_bytes_count_like_allocated_ones),
         cmocka_unit_test(the_chosen_allocation_fails_and_all_after_it),
         cmocka_unit_test(sizes_that_overflow_are_refused),
         cmocka_unit_test(the_first_error_wins_and_keeps_its_place),
