@@ -2,8 +2,5 @@
 #include "tradeoff/knobs.h"
 
 const tradeoff_knob *const tradeoff_knobs[] = {
-    &tradeoff_triangle_test,
-    &tradeoff_visibility,
-    &tradeoff_samples,
-    NULL,
+    &tradeoff_triangle_test, &tradeoff_visibility, &tradeoff_samples, &tradeoff_levels, &tradeoff_digits, NULL,
 };

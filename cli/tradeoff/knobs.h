@@ -4,6 +4,8 @@
 
 #include "tradeoff/tradeoff.h"
 
+extern const tradeoff_knob tradeoff_digits;
+extern const tradeoff_knob tradeoff_levels;
 extern const tradeoff_knob tradeoff_samples;
 extern const tradeoff_knob tradeoff_triangle_test;
 extern const tradeoff_knob tradeoff_visibility;

@@ -14,6 +14,7 @@
 
 typedef struct obj_writer {
     const mt_mesh *mesh;
+    unsigned digits;
     const mt_attribute *color, *uv, *normal, *holes;
     const mt_labels *labels[LABEL_KINDS];
 } obj_writer;
@@ -27,7 +28,7 @@ static void put_vertices(void *user, mt_lines *lines, uint64_t begin, uint64_t e
             return;
         }
         *at++ = 'v';
-        at = mt_put_position(at, writer->mesh, (mt_index)vertex);
+        at = mt_put_position(at, writer->mesh, (mt_index)vertex, writer->digits);
         if (writer->color) {
             at = mt_put_color(at, writer->color, (mt_index)vertex, 3, true);
         }
@@ -271,6 +272,7 @@ mt_status mt_obj_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_w
                        mt_output *output)
 {
     obj_writer writer = {.mesh = mesh,
+                         .digits = options->digits,
                          .color = mt_obj_written_attribute(mesh, MT_SEMANTIC_COLOR),
                          .holes = mt_mesh_find_holes(mesh),
                          .uv = mt_obj_written_attribute(mesh, MT_SEMANTIC_UV),
@@ -292,7 +294,6 @@ mt_status mt_obj_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_w
                  {mesh->sharp_vertex_count, put_sharp_vertices},
                  {writer.holes ? mesh->face_count : 0, put_holes},
                  {MT_TAG_COUNT, put_settings}};
-    (void)options;
     mt_status status = mt_output_text(context, output, "# Wavefront OBJ\n");
     for (size_t i = 0; status == MT_OK && i < sizeof parts / sizeof parts[0]; i++) {
         status = mt_lines_write(context, output, parts[i].count, LINE_GRAIN, parts[i].put, &writer);

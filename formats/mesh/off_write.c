@@ -16,6 +16,7 @@ typedef struct off_color {
 
 typedef struct off_writer {
     const mt_mesh *mesh;
+    unsigned digits;
     const mt_attribute *normal, *uv;
     off_color vertex_color, face_color;
 } off_writer;
@@ -85,7 +86,7 @@ static void put_vertices(void *user, mt_lines *lines, uint64_t begin, uint64_t e
         }
         /* The first number has no space before it: the one that is put is overwritten by the next line's. */
         char *line = at;
-        at = mt_put_position(at, writer->mesh, (mt_index)vertex);
+        at = mt_put_position(at, writer->mesh, (mt_index)vertex, writer->digits);
         at = writer->normal ? put_values(at, writer->normal, (mt_index)vertex, 3) : at;
         at = writer->vertex_color.attribute ? put_color(at, &writer->vertex_color, (mt_index)vertex) : at;
         at = writer->uv ? put_values(at, writer->uv, (mt_index)vertex, 2) : at;
@@ -123,11 +124,11 @@ mt_status mt_off_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_w
                        mt_output *output)
 {
     off_writer writer = {.mesh = mesh,
+                         .digits = options->digits,
                          .normal = mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX),
                          .uv = mt_mesh_find_attribute(mesh, MT_SEMANTIC_UV, MT_DOMAIN_VERTEX),
                          .vertex_color = choose_color(mesh, MT_DOMAIN_VERTEX),
                          .face_color = choose_color(mesh, MT_DOMAIN_FACE)};
-    (void)options;
     mt_status status = mt_output_format(context, output, "%s%s%sOFF\n%lu %lu 0\n", writer.uv ? "ST" : "",
                                         writer.vertex_color.attribute ? "C" : "", writer.normal ? "N" : "",
                                         (unsigned long)mesh->vertex_count, (unsigned long)mesh->face_count);

@@ -171,6 +171,9 @@ static mt_status make_vertices(schemer *s)
     for (size_t i = 0; status == MT_OK && i < 3; i++) {
         status = add_numbers(s, names[i], mesh->position_type, mesh->positions, i, 3, NULL);
     }
+    for (size_t i = 0; status == MT_OK && i < 3; i++) {
+        s->fields->fields[i].is_position = true;
+    }
     return status == MT_OK ? add_attributes(s, MT_DOMAIN_VERTEX) : status;
 }
 

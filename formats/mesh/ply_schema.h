@@ -16,6 +16,7 @@ typedef struct ply_field {
     char *name;
     mt_type type;
     mt_type count_type; /* of lists */
+    bool is_position;
     const char *values;
     size_t stride;
     const mt_index *indices;       /* per record its value, MT_NONE: none; NULL: its own */

@@ -18,6 +18,7 @@ typedef struct ply_writer {
     mt_output *output;
     const ply_fields *fields;
     bool ascii, swap;
+    unsigned digits;                  /* of positions; 0: shortest */
     atomic_uint_fast64_t partial_uvs; /* corners without texture coordinates in faces that have some */
 } ply_writer;
 
@@ -158,9 +159,33 @@ static mt_index find_wire_vertex(ply_block *b, mt_index edge)
     return edge + b->wire;
 }
 
+/* A coordinate in text, with fewer digits than it has. */
+static void put_rounded(ply_block *b, const ply_field *field, mt_index record)
+{
+    char *at = mt_lines_reserve(b->lines, NUMBER_ROOM);
+    if (!at) {
+        return;
+    }
+    float single;
+    double number;
+    const char *value = (const char *)field->values + record * field->stride;
+    if (field->type == MT_F32) {
+        memcpy(&single, value, sizeof single);
+        number = (double)single;
+    } else {
+        memcpy(&number, value, sizeof number);
+    }
+    char *begin = begin_word(b, at);
+    b->lines->size += (size_t)(begin - at) + mt_number_print_digits(number, b->w->digits, begin);
+}
+
 static void put_field(ply_block *b, const ply_field *field, mt_index record)
 {
     mt_index value = field->indices ? field->indices[record] : record;
+    if (b->w->digits > 0 && b->w->ascii && field->is_position) {
+        put_rounded(b, field, record);
+        return;
+    }
     switch (field->source) {
     case PLY_FROM_FACE:
         put_face(b, field, record);
@@ -248,7 +273,8 @@ mt_status mt_ply_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_w
                     .mesh = mesh,
                     .output = output,
                     .ascii = options->encoding == MT_ENCODING_ASCII,
-                    .swap = is_swapped(options->encoding)};
+                    .swap = is_swapped(options->encoding),
+                    .digits = options->digits};
     status = put_all(&w, &schema, options->encoding);
     uint64_t partial = atomic_load(&w.partial_uvs);
     if (status == MT_OK && partial) {

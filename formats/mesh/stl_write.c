@@ -15,6 +15,7 @@
 typedef struct stl_writer {
     mt_context *context;
     const mt_mesh *mesh;
+    unsigned digits;
     mt_triangulation triangulation;
     const mt_attribute *normals;    /* of the faces, or NULL: they follow from the corners */
     const mt_attribute *attributes; /* the attribute bytes, or NULL */
@@ -158,7 +159,7 @@ static char *put_ascii_facet(const stl_writer *w, mt_index triangle, char *at)
     at = APPEND(at, "\n  outer loop\n");
     for (int i = 0; i < 3; i++) {
         at = APPEND(at, "   vertex");
-        at = mt_put_position(at, w->mesh, f.vertices[i]);
+        at = mt_put_position(at, w->mesh, f.vertices[i], w->digits);
         *at++ = '\n';
     }
     return APPEND(at, "  endloop\n endfacet\n");
@@ -253,6 +254,7 @@ mt_status mt_stl_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_w
 {
     stl_writer w = {.context = context,
                     .mesh = mesh,
+                    .digits = options->digits,
                     .normals = mt_stl_normals(mesh),
                     .attributes = mt_stl_attributes(mesh),
                     .solids = mt_mesh_find_labels(mesh, MT_LABEL_SOLID)};

@@ -1,7 +1,21 @@
 #include "formats/mesh/values.h"
 
-char *mt_put_position(char *at, const mt_mesh *mesh, mt_index vertex)
+static char *put_rounded_position(char *at, const mt_mesh *mesh, mt_index vertex, unsigned digits)
 {
+    mt_vec3 p = mt_mesh_position(mesh, vertex);
+    const double numbers[3] = {p.x, p.y, p.z};
+    for (int i = 0; i < 3; i++) {
+        *at++ = ' ';
+        at += mt_number_print_digits(numbers[i], digits, at);
+    }
+    return at;
+}
+
+char *mt_put_position(char *at, const mt_mesh *mesh, mt_index vertex, unsigned digits)
+{
+    if (digits > 0) {
+        return put_rounded_position(at, mesh, vertex, digits);
+    }
     for (size_t i = 3 * (size_t)vertex; i < 3 * (size_t)vertex + 3; i++) {
         *at++ = ' ';
         at = mesh->position_type == MT_F64 ? mt_put_number(at, ((const double *)mesh->positions)[i])

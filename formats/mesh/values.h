@@ -6,8 +6,8 @@
 
 #include <meshtool/mesh.h>
 
-/* Three numbers; shortest for the stored precision. Room: 3 * (MT_NUMBER_ROOM + 1). */
-char *mt_put_position(char *at, const mt_mesh *mesh, mt_index vertex);
+/* Three numbers of so many significant digits; 0: shortest for the stored precision. Room: 3 * (MT_NUMBER_ROOM + 1). */
+char *mt_put_position(char *at, const mt_mesh *mesh, mt_index vertex, unsigned digits);
 
 /* One component as stored, without a space before it. Room: MT_NUMBER_ROOM. */
 char *mt_put_component(char *at, const mt_attribute *attribute, mt_index value, uint32_t component);

@@ -89,3 +89,10 @@ extern "C" size_t mt_number_print_float(float number, char *text)
 {
     return static_cast<size_t>(std::to_chars(text, text + MT_NUMBER_ROOM, number).ptr - text);
 }
+
+extern "C" size_t mt_number_print_digits(double number, unsigned digits, char *text)
+{
+    return static_cast<size_t>(
+        std::to_chars(text, text + MT_NUMBER_ROOM, number, std::chars_format::general, static_cast<int>(digits)).ptr -
+        text);
+}

@@ -29,6 +29,8 @@ bool mt_number_parse_float(const char *begin, const char *end, float *number);
 #define MT_NUMBER_ROOM 32
 size_t mt_number_print(double number, char *text);
 size_t mt_number_print_float(float number, char *text);
+/* The same with at most `digits` significant digits (1 to 17), correctly rounded. */
+size_t mt_number_print_digits(double number, unsigned digits, char *text);
 
 #ifdef __cplusplus
 }

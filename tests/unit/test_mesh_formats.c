@@ -193,9 +193,42 @@ static void test_loss_of_further_attributes(void **state)
     test_context_end(context);
 }
 
+/* Positions in text with fewer digits, in every format that has text; what has none is not changed. */
+static void test_fewer_digits(void **state)
+{
+    (void)state;
+    mt_context *context = mt_context_create(NULL);
+    mt_mesh *mesh = NULL, *back = NULL;
+    assert_int_equal(mt_generate(context, "icosphere", NULL, &mesh), MT_OK);
+    for (const mt_mesh_format *const *format = mt_mesh_formats(); *format; format++) {
+        if (!(*format)->has_ascii || !(*format)->read || !(*format)->write) {
+            continue;
+        }
+        mt_mesh_write_options options = {
+            .format = (*format)->extensions[0], .encoding = MT_ENCODING_ASCII, .digits = 4};
+        void *bytes = NULL;
+        size_t size = 0;
+        assert_int_equal(mt_mesh_write_memory(context, mesh, &options, &bytes, &size), MT_OK);
+        assert_int_equal(mt_mesh_read_memory(context, (*format)->extensions[0], bytes, size, NULL, &back, NULL), MT_OK);
+        assert_int_equal(back->vertex_count, mesh->vertex_count);
+        double farthest = 0;
+        for (mt_index i = 0; !back->welded && i < mesh->vertex_count; i++) {
+            mt_vec3 moved = mt_vec3_subtract(mt_mesh_position(back, i), mt_mesh_position(mesh, i));
+            farthest = fmax(farthest, mt_vec3_max_abs(moved));
+        }
+        assert_true(farthest < 0.51e-4);
+        assert_true(back->welded || farthest > 1e-6);
+        mt_mesh_destroy(context, back);
+        mt_free(context, bytes);
+    }
+    mt_mesh_destroy(context, mesh);
+    mt_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_fewer_digits),
         cmocka_unit_test(test_the_table),
         cmocka_unit_test(test_content_wins_over_the_name),
         cmocka_unit_test(test_what_is_no_mesh),

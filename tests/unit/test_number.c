@@ -194,9 +194,26 @@ static void test_unsigned(void **state)
     assert_ptr_equal(stop, none);
 }
 
+/* So many digits and no more, rounded as the C library rounds. */
+static void test_digits_are_rounded(void **state)
+{
+    (void)state;
+    uint64_t seed = 12345;
+    for (int i = 0; i < 20000; i++) {
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        double number = ((double)(seed >> 11) * 0x1p-53 - 0.5) * pow(10, (int)(seed % 40) - 20);
+        unsigned digits = 1 + (unsigned)(seed >> 7) % 17;
+        char ours[MT_NUMBER_ROOM + 1], theirs[64];
+        ours[mt_number_print_digits(number, digits, ours)] = '\0';
+        snprintf(theirs, sizeof theirs, "%.*g", (int)digits, number);
+        assert_string_equal(ours, theirs);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_digits_are_rounded),
         cmocka_unit_test(test_rounding_agrees_with_strtod),
         cmocka_unit_test(test_ties),
         cmocka_unit_test(test_forms),

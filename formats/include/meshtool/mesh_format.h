@@ -51,6 +51,7 @@ typedef struct mt_mesh_write_options {
     mt_encoding encoding; /* default: binary where the format has both */
     bool strict_loss;     /* refuse with MT_ERROR_LOSS instead of losing anything */
     bool no_clobber;      /* refuse with MT_ERROR_IO when the file exists */
+    unsigned digits; /* significant digits of positions in text, up to 17; 0: the shortest that read back the same */
 } mt_mesh_write_options;
 
 typedef struct mt_input mt_input;   /* bytes to read: file, standard input or memory (formats/stream) */
