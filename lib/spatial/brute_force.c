@@ -32,11 +32,9 @@ static uint64_t size(const void *body)
 
 static bool find_hit(const void *body, const mt_ray *ray, mt_ray_profile profile, bool any, mt_ray_hit *hit)
 {
-    const mt_packed_triangles *triangles = body;
     mt_ray_search search;
-    if (mt_ray_search_init(triangles, ray, profile, any, &search)) {
-        for (mt_index at = 0; at < triangles->count && !mt_ray_search_try(&search, at); at++) {
-        }
+    if (mt_ray_search_init(body, ray, profile, any, &search)) {
+        mt_ray_search_try_all(&search);
     }
     *hit = search.best;
     return hit->triangle != MT_NONE;

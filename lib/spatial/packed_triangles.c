@@ -33,6 +33,22 @@ static void pack_block(void *user, uint64_t begin, uint64_t end)
     }
 }
 
+static void bound(mt_packed_triangles *triangles)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        float low = INFINITY, high = -INFINITY;
+        for (mt_index i = 0; i < triangles->count; i++) {
+            for (int corner = 0; corner < 3; corner++) {
+                float x = triangles->items[i].rows[axis][corner];
+                low = x < low ? x : low;
+                high = x > high ? x : high;
+            }
+        }
+        triangles->lower[axis] = low;
+        triangles->upper[axis] = high;
+    }
+}
+
 static void drop_left_out(mt_packed_triangles *triangles, mt_index count)
 {
     for (mt_index i = 0; i < count; i++) {
@@ -56,6 +72,7 @@ mt_status mt_packed_triangles_init(mt_context *context, const mt_ray_source *sou
     packing job = {source, triangles->items, triangles->numbers};
     mt_parallel_for(context, count, BLOCK_SIZE, pack_block, &job);
     drop_left_out(triangles, count);
+    bound(triangles);
     return MT_OK;
 }
 
@@ -147,4 +164,66 @@ bool mt_ray_search_decide(mt_ray_search *search, mt_index at)
     search->best = hit;
     search->limit = widened(&search->setup, hit.t, 1);
     return search->any;
+}
+
+bool mt_ray_search_enter(const mt_ray_search *search, double *enter, double *leave)
+{
+    const mt_ray_setup *setup = &search->setup;
+    double nearness = fmax(MT_RAY_NEARNESS, 2 * (double)setup->slack);
+    double enters = search->begin, leaves = search->limit;
+    for (int i = 0; i < 3; i++) {
+        double low = (double)search->triangles->lower[setup->axes[i]] - nearness;
+        double high = (double)search->triangles->upper[setup->axes[i]] + nearness;
+        double reciprocal = 1 / setup->direction[i];
+        double to_low = (low - setup->origin[i]) * reciprocal, to_high = (high - setup->origin[i]) * reciprocal;
+        double near = signbit(setup->direction[i]) ? to_high : to_low;
+        double far = signbit(setup->direction[i]) ? to_low : to_high;
+        enters = near > enters ? near : enters;
+        leaves = far < leaves ? far : leaves;
+    }
+    *enter = enters;
+    *leave = leaves;
+    return enters <= leaves;
+}
+
+void mt_ray_search_try_all(mt_ray_search *search)
+{
+    for (mt_index at = 0; at < search->triangles->count && !mt_ray_search_try(search, at); at++) {
+    }
+}
+
+bool mt_places_are_rising(const mt_index *places, uint64_t count, mt_index end)
+{
+    for (uint64_t i = 0; i < count; i++) {
+        if (places[i] >= end || (i && places[i - 1] >= places[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool mt_places_hold(const mt_index *places, uint64_t count, mt_index place)
+{
+    uint64_t begin = 0, end = count;
+    while (begin < end) {
+        uint64_t middle = begin + (end - begin) / 2;
+        if (places[middle] < place) {
+            begin = middle + 1;
+        } else {
+            end = middle;
+        }
+    }
+    return begin < count && places[begin] == place;
+}
+
+void mt_packed_triangle_sample(const mt_packed_triangle *triangle, int sample, double point[3])
+{
+    static const double weights[MT_PACKED_SAMPLES][3] = {{1, 0, 0},     {0, 1, 0},     {0, 0, 1},      {0.5, 0.5, 0},
+                                                         {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.3, 0.3, 0.4}};
+    for (int axis = 0; axis < 3; axis++) {
+        point[axis] = 0;
+        for (int corner = 0; corner < 3; corner++) {
+            point[axis] += weights[sample][corner] * (double)triangle->rows[axis][corner];
+        }
+    }
 }

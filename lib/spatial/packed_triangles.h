@@ -17,6 +17,7 @@ typedef struct mt_packed_triangles {
     mt_index count;            /* those with a corner that is not finite are left out */
     mt_packed_triangle *items; /* at first in the order of their numbers */
     mt_index *numbers;         /* of each in the triangulation */
+    float lower[3], upper[3];  /* of all; nothing: above and below */
 } mt_packed_triangles;
 
 /* Zeroes what it cannot make. */
@@ -26,6 +27,20 @@ void mt_packed_triangles_release(mt_context *context, mt_packed_triangles *trian
 uint64_t mt_packed_triangles_size(const mt_packed_triangles *triangles);
 /* Whether every finite triangle of the source stands among them once, as it is in the mesh. MT_ERROR_INTERNAL. */
 mt_status mt_packed_triangles_validate(mt_context *context, const mt_packed_triangles *triangles);
+
+/* Checks that structures of entries share. Places of triangles, rising, below `end`. */
+bool mt_places_are_rising(const mt_index *places, uint64_t count, mt_index end);
+/* Whether rising places have this one. */
+bool mt_places_hold(const mt_index *places, uint64_t count, mt_index place);
+/* Points of a triangle: its corners, the middles of its sides, and one within. */
+#define MT_PACKED_SAMPLES 7
+void mt_packed_triangle_sample(const mt_packed_triangle *triangle, int sample, double point[3]);
+
+/* How far off a triangle its point may lie where a ray hits it, on each axis, for rays that pass the test of
+ * mt_ray_search_is_near: its slack, the rounding of the corners, and the doubles of whoever walks along the ray. Cells
+ * and halves of space hold all triangles that come so near. */
+#define MT_RAY_NEARNESS 0x1.4p-19
+#define MT_RAY_NEAR_SLACK 0x1p-19f
 
 /* One ray on its way. Parameters count in the setup's direction from the setup's origin. */
 typedef struct mt_ray_search {
@@ -39,6 +54,21 @@ typedef struct mt_ray_search {
 /* False when the ray hits nothing at all. */
 bool mt_ray_search_init(const mt_packed_triangles *triangles, const mt_ray *ray, mt_ray_profile profile, bool any,
                         mt_ray_search *search);
+
+/* Whether the ray's hits lie as near as MT_RAY_NEARNESS says. False for rays that begin far out and look back, which
+ * are asked of every triangle. */
+static inline bool mt_ray_search_is_near(const mt_ray_search *search)
+{
+    return search->setup.slack <= MT_RAY_NEAR_SLACK;
+}
+
+/* Where the ray is amid the triangles: parameters of the box of all, widened by how near its hits are. False when it
+ * passes by. The slabs of Kay and Kajiya by the IEEE rules: a component of 0 gives infinite slabs, or NaN where a plane
+ * goes through the origin, which the order of minimum and maximum drops: inside. */
+bool mt_ray_search_enter(const mt_ray_search *search, double *enter, double *leave);
+
+/* Asks every triangle. */
+void mt_ray_search_try_all(mt_ray_search *search);
 
 /* Asks the hit function of one triangle. Returns true when the search is over. */
 bool mt_ray_search_decide(mt_ray_search *search, mt_index at);

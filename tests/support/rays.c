@@ -133,19 +133,24 @@ uint64_t test_count_differences(const test_target *target, uint64_t count, uint6
     return sum;
 }
 
+mt_ray test_probe_ray(const test_target *target, mt_vec3 inside, double jitter, bool at_edges, uint64_t number,
+                      test_random *random)
+{
+    mt_index corners = 3 * target->triangulation.triangle_count, corner = (mt_index)(number % corners);
+    mt_vec3 aim = corner_of(target, corner / 3, corner % 3);
+    aim = at_edges ? halfway(aim, corner_of(target, corner / 3, (corner % 3 + 1) % 3)) : aim;
+    inside.x += jitter * (test_random_unit(random) - 0.5);
+    inside.y += jitter * (test_random_unit(random) - 0.5);
+    inside.z += jitter * (test_random_unit(random) - 0.5);
+    return mt_ray_make(inside, mt_vec3_subtract(aim, inside));
+}
+
 uint64_t test_count_misses(const test_target *target, mt_vec3 inside, double jitter, bool at_edges, uint64_t count)
 {
     test_random random = {count};
     uint64_t misses = 0;
-    mt_index corners = 3 * target->triangulation.triangle_count;
     for (uint64_t i = 0; i < count; i++) {
-        mt_index triangle = (mt_index)(i % corners) / 3, side = (mt_index)(i % corners) % 3;
-        mt_vec3 aim = corner_of(target, triangle, side), origin = inside;
-        aim = at_edges ? halfway(aim, corner_of(target, triangle, (side + 1) % 3)) : aim;
-        origin.x += jitter * (test_random_unit(&random) - 0.5);
-        origin.y += jitter * (test_random_unit(&random) - 0.5);
-        origin.z += jitter * (test_random_unit(&random) - 0.5);
-        mt_ray ray = mt_ray_make(origin, mt_vec3_subtract(aim, origin));
+        mt_ray ray = test_probe_ray(target, inside, jitter, at_edges, i, &random);
         mt_ray_hit hit;
         misses += !mt_surface_tree_nearest_hit(target->tree, &ray, target->profile, &hit);
     }

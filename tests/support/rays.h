@@ -30,6 +30,10 @@ mt_ray test_random_ray(const test_target *target, test_random *random);
  * for any hit disagrees. */
 uint64_t test_count_differences(const test_target *target, uint64_t count, uint64_t seed);
 
+/* The ray number `number` of a probe for leaks: from near an inside point at a vertex, or at the middle of a side. */
+mt_ray test_probe_ray(const test_target *target, mt_vec3 inside, double jitter, bool at_edges, uint64_t number,
+                      test_random *random);
+
 /* Shoots from an inside point at every vertex, or at the middle of every side of a triangle, until `count` rays were
  * shot, from points jittered around it; returns how many hit nothing. */
 uint64_t test_count_misses(const test_target *target, mt_vec3 inside, double jitter, bool at_edges, uint64_t count);

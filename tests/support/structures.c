@@ -134,3 +134,25 @@ void test_structures_agree(const test_structures *structures, const char *mesh, 
         fail_msg("%s: %llu of %llu rays differ", mesh, (unsigned long long)sum, (unsigned long long)count);
     }
 }
+
+void test_structures_are_tight(const test_structures *structures, const char *mesh, mt_vec3 inside, double jitter,
+                               uint64_t count)
+{
+    const test_target *target = &structures->target;
+    test_random random = {count};
+    uint64_t misses[MT_RAY_STRUCTURE_COUNT] = {0}, sum = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        mt_ray ray = test_probe_ray(target, inside, jitter, 2 * i >= count, i, &random);
+        for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+            misses[kind] += !mt_ray_structure_any_hit(structures->all[kind], &ray, target->profile);
+        }
+    }
+    for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+        if (misses[kind]) {
+            print_error("%s, %s: %llu of %llu rays leak\n", mesh, mt_ray_structure_name((mt_ray_structure_kind)kind),
+                        (unsigned long long)misses[kind], (unsigned long long)count);
+        }
+        sum += misses[kind];
+    }
+    assert_int_equal(sum, 0);
+}

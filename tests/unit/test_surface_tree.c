@@ -1,6 +1,7 @@
 /* The tree against brute force, its invariants on meshes that break naive builders, and the probe for leaks. */
 #include "tests/support/unit.h"
 
+#include "tests/support/ray_meshes.h"
 #include "tests/support/rays.h"
 #include "tests/support/soup.h"
 #include "tests/support/zoo.h"
@@ -45,74 +46,16 @@ static mt_mesh *make_torus(mt_context *context)
     return test_torus(context, 12, 8, true);
 }
 
-/* Slivers: aspect up to 1e6, crossing each other. */
-static mt_mesh *make_slivers(mt_context *context)
-{
-    enum { COUNT = 150 };
-    double positions[9 * COUNT];
-    mt_index faces[4 * COUNT];
-    test_random random = {5};
-    for (mt_index i = 0; i < COUNT; i++) {
-        double thin = ldexp(1, -(int)test_random_below(&random, 20));
-        for (mt_index c = 0; c < 9; c++) {
-            positions[9 * i + c] =
-                c < 6 ? test_random_unit(&random) : positions[9 * i + c - 6] + thin * test_random_unit(&random);
-        }
-        faces[4 * i] = 3, faces[4 * i + 1] = 3 * i, faces[4 * i + 2] = 3 * i + 1, faces[4 * i + 3] = 3 * i + 2;
-    }
-    return test_mesh(context, 3 * COUNT, positions, COUNT, faces);
-}
-
-/* Every face three times, in a plane across an axis: boxes of no thickness, ties everywhere. */
-static mt_mesh *make_flat_duplicates(mt_context *context)
-{
-    enum { SIDE = 6, QUADS = SIDE * SIDE };
-    double positions[3 * (SIDE + 1) * (SIDE + 1)];
-    mt_index faces[5 * QUADS * 3];
-    for (mt_index i = 0; i < (SIDE + 1) * (SIDE + 1); i++) {
-        positions[3 * i] = i % (SIDE + 1);
-        positions[3 * i + 1] = 2.5;
-        positions[3 * i + 2] = i / (SIDE + 1);
-    }
-    for (mt_index i = 0; i < 3 * QUADS; i++) {
-        mt_index quad = i % QUADS, v = quad / SIDE * (SIDE + 1) + quad % SIDE;
-        mt_index *face = &faces[5 * i];
-        face[0] = 4, face[1] = v, face[2] = v + 1, face[3] = v + SIDE + 2, face[4] = v + SIDE + 1;
-    }
-    return test_mesh(context, (SIDE + 1) * (SIDE + 1), positions, 3 * QUADS, faces);
-}
-
-/* A teapot in a stadium: a small sphere amid one a million times as large. */
-static mt_mesh *make_two_scales(mt_context *context)
-{
-    mt_mesh *mesh = test_torus(context, 16, 8, false);
-    for (mt_index v = 0; v < mesh->vertex_count / 2; v++) {
-        mt_mesh_set_position(mesh, v, mt_vec3_scale(mt_mesh_position(mesh, v), 1e-6));
-    }
-    return mesh;
-}
-
-/* A million units off, details of a thousandth. */
-static mt_mesh *make_far(mt_context *context)
-{
-    mt_mesh *mesh = test_torus(context, 16, 8, false);
-    for (mt_index v = 0; v < mesh->vertex_count; v++) {
-        mt_vec3 p = mt_vec3_scale(mt_mesh_position(mesh, v), 1e-3);
-        mt_mesh_set_position(mesh, v, mt_vec3_add(p, mt_vec3_make(1e7, -1e7, 3e6)));
-    }
-    return mesh;
-}
-
 static void million_rays_agree_with_brute_force(void **state)
 {
     (void)state;
     expect_no_difference("cube", make_cube, 1000000, MT_RAY_WATERTIGHT);
     expect_no_difference("sphere", make_sphere, 1000000, MT_RAY_WATERTIGHT);
     expect_no_difference("torus", make_torus, 1000000, MT_RAY_WATERTIGHT);
-    expect_no_difference("slivers", make_slivers, 1000000, MT_RAY_WATERTIGHT);
-    expect_no_difference("flat_duplicates", make_flat_duplicates, 1000000, MT_RAY_WATERTIGHT);
-    expect_no_difference("two_scales", make_two_scales, 300000, MT_RAY_WATERTIGHT);
-    expect_no_difference("far", make_far, 300000, MT_RAY_WATERTIGHT);
+    expect_no_difference("slivers", test_slivers, 1000000, MT_RAY_WATERTIGHT);
+    expect_no_difference("flat_duplicates", test_flat_duplicates, 1000000, MT_RAY_WATERTIGHT);
+    expect_no_difference("two_scales", test_two_scales, 300000, MT_RAY_WATERTIGHT);
+    expect_no_difference("far", test_far_torus, 300000, MT_RAY_WATERTIGHT);
 }
 
 static void exact_rays_agree_with_brute_force(void **state)
@@ -120,10 +63,10 @@ static void exact_rays_agree_with_brute_force(void **state)
     (void)state;
     expect_no_difference("cube", make_cube, 200000, MT_RAY_EXACT);
     expect_no_difference("sphere", make_sphere, 200000, MT_RAY_EXACT);
-    expect_no_difference("slivers", make_slivers, 200000, MT_RAY_EXACT);
-    expect_no_difference("flat_duplicates", make_flat_duplicates, 200000, MT_RAY_EXACT);
-    expect_no_difference("two_scales", make_two_scales, 100000, MT_RAY_EXACT);
-    expect_no_difference("far", make_far, 100000, MT_RAY_EXACT);
+    expect_no_difference("slivers", test_slivers, 200000, MT_RAY_EXACT);
+    expect_no_difference("flat_duplicates", test_flat_duplicates, 200000, MT_RAY_EXACT);
+    expect_no_difference("two_scales", test_two_scales, 100000, MT_RAY_EXACT);
+    expect_no_difference("far", test_far_torus, 100000, MT_RAY_EXACT);
 }
 
 static void every_animal_has_a_sound_tree(void **state)
@@ -183,15 +126,8 @@ static void identical_centroids_end_in_a_tree(void **state)
 {
     (void)state;
     mt_context *context = test_context();
-    enum { COUNT = 100000 };
-    mt_index *faces = mt_allocate_array(context, 4 * COUNT, sizeof *faces);
-    for (mt_index i = 0; i < COUNT; i++) {
-        faces[4 * i] = 3, faces[4 * i + 1] = 0, faces[4 * i + 2] = 1, faces[4 * i + 3] = 2;
-    }
-    mt_mesh *mesh = test_mesh(context, 3, (const double[]){0, 0, 0, 1, 0, 0, 0, 1, 0}, COUNT, faces);
-    mt_free(context, faces);
     test_target target;
-    test_target_init(&target, context, mesh, MT_RAY_WATERTIGHT);
+    test_target_init(&target, context, test_equal_triangles(context, 100000), MT_RAY_WATERTIGHT);
     mt_ray ray = mt_ray_make(mt_vec3_make(0.25, 0.25, 1), mt_vec3_make(0, 0, -1));
     mt_ray_hit hit;
     assert_true(mt_surface_tree_nearest_hit(target.tree, &ray, MT_RAY_WATERTIGHT, &hit));
@@ -204,26 +140,12 @@ static void identical_centroids_end_in_a_tree(void **state)
     test_context_end(context);
 }
 
-/* Coordinates that halve from one to the next, where cuts in the middle peel off one triangle at a time. */
 static void geometric_series_keep_the_depth_bounded(void **state)
 {
     (void)state;
     mt_context *context = test_context();
-    enum { COUNT = 3000 };
-    double *positions = mt_allocate_array(context, 9 * COUNT, sizeof *positions);
-    mt_index *faces = mt_allocate_array(context, 4 * COUNT, sizeof *faces);
-    for (mt_index i = 0; i < COUNT; i++) {
-        double size = ldexp(1 + (i % 20) / 20.0, -(int)(i / 20));
-        for (mt_index c = 0; c < 9; c++) {
-            positions[9 * i + c] = size * (1 + (c == i % 9) * 0.5);
-        }
-        faces[4 * i] = 3, faces[4 * i + 1] = 3 * i, faces[4 * i + 2] = 3 * i + 1, faces[4 * i + 3] = 3 * i + 2;
-    }
-    mt_mesh *mesh = test_mesh(context, 3 * COUNT, positions, COUNT, faces);
-    mt_free(context, positions);
-    mt_free(context, faces);
     test_target target;
-    test_target_init(&target, context, mesh, MT_RAY_WATERTIGHT);
+    test_target_init(&target, context, test_geometric_series(context, 3000), MT_RAY_WATERTIGHT);
     assert_int_equal(test_count_differences(&target, test_ray_count(5000), 3), 0);
     test_target_end(&target);
     test_context_end(context);

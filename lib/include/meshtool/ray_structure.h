@@ -15,12 +15,14 @@ extern "C" {
 typedef enum mt_ray_structure_kind {
     MT_RAY_STRUCTURE_AABB = 0, /* a wide tree of axis-aligned boxes: mt_surface_tree */
     MT_RAY_STRUCTURE_NONE,     /* every ray is asked of every triangle */
+    MT_RAY_STRUCTURE_GRID,     /* equal cells, through which a ray goes from one to the next */
+    MT_RAY_STRUCTURE_BSP,      /* space halved by planes across the axes */
     MT_RAY_STRUCTURE_COUNT
 } mt_ray_structure_kind;
 
 typedef struct mt_ray_structure mt_ray_structure;
 
-/* "aabb" or "none"; NULL for what is no kind. */
+/* "aabb", "none", "grid" or "bsp"; NULL for what is no kind. */
 const char *mt_ray_structure_name(mt_ray_structure_kind kind);
 
 /* Builds the structure over the triangles of a mesh. Mesh and triangulation are borrowed and outlive it. The same for
