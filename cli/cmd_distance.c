@@ -2,6 +2,7 @@
 #include "distance.h"
 #include "files.h"
 #include "message.h"
+#include "profile.h"
 #include "progress.h"
 #include "quantity.h"
 
@@ -157,8 +158,10 @@ static cli_exit tell(const cli_job *job, const mt_mesh *a, const mt_deviation *d
 static cli_exit compare(const cli_job *job, const mt_mesh *a, const mt_mesh *b)
 {
     const cli_distance_settings *settings = job->settings;
-    mt_deviation_options how = {
-        .tolerance = settings->tolerance, .spacing = settings->spacing, .keep_distances = settings->paint != NULL};
+    mt_deviation_options how = {.tolerance = settings->tolerance,
+                                .relative_tolerance = cli_profile_of(job->common)->tolerance,
+                                .spacing = settings->spacing,
+                                .keep_distances = settings->paint != NULL};
     mt_deviation deviation = {0};
     signed_range range = {0};
     cli_exit code = CLI_EXIT_DONE;

@@ -2,6 +2,9 @@
 #include "help.h"
 #include "json.h"
 #include "message.h"
+#include "profile.h"
+
+#include <string.h>
 
 typedef struct help_settings {
     cli_common common;
@@ -52,6 +55,10 @@ static cli_exit print_json(const cli_command *one)
 static cli_exit run(const cli_job *job)
 {
     const cli_command *command = NULL;
+    if (job->operand_count == 1 && strcmp(job->operands[0], "profiles") == 0 && !job->common->json) {
+        cli_profiles_print(stdout);
+        return CLI_EXIT_DONE;
+    }
     if (job->operand_count == 1) {
         command = cli_find_command(job->operands[0]);
         if (!command) {
@@ -71,9 +78,10 @@ static cli_exit run(const cli_job *job)
 
 const cli_command cli_help_command = {
     .name = "help",
-    .usage = "[COMMAND]",
-    .summary = "Explain meshtool, or one command",
-    .examples = "  meshtool help check-manifold\n",
+    .usage = "[COMMAND | profiles]",
+    .summary = "Explain meshtool, one command, or the profiles",
+    .examples = "  meshtool help check-manifold\n"
+                "  meshtool help profiles\n",
     .groups = CLI_GROUP_EVERY,
     .settings_size = sizeof(help_settings),
     .operand_maximum = 1,

@@ -205,7 +205,7 @@ static const cli_option options[] = {
     {0},
 };
 
-static const preview_settings defaults = {.projection = PREVIEW_NO_PROJECTION};
+static const preview_settings defaults = {.projection = PREVIEW_NO_PROJECTION, .test = PREVIEW_NO_TEST};
 
 static cli_exit check_usage(const cli_job *job, const mt_image_format *written)
 {

@@ -2,6 +2,7 @@
 #include "crease_list.h"
 #include "files.h"
 #include "message.h"
+#include "profile.h"
 #include "progress.h"
 #include "subdivision.h"
 
@@ -185,6 +186,22 @@ static cli_exit run_on(const cli_job *job, const mt_mesh *mesh, const mt_mesh_fo
     return code;
 }
 
+/* The precision that the profile refines in, unless one is asked for. */
+static cli_exit store_as_profiled(const cli_job *job, mt_mesh *mesh)
+{
+    mt_precision wanted = cli_profile_of(job->common)->precision;
+    if (job->common->precision != MT_PRECISION_AUTO || wanted == MT_PRECISION_AUTO) {
+        return CLI_EXIT_DONE;
+    }
+    mt_type type = wanted == MT_PRECISION_F32 ? MT_F32 : MT_F64;
+    if (type == MT_F32 && mesh->position_type == MT_F64 && !job->common->quiet) {
+        fputs("meshtool: --profile fast refines positions in single precision\n", stderr);
+    }
+    return mt_mesh_set_position_type(job->context, mesh, type, NULL) == MT_OK
+               ? CLI_EXIT_DONE
+               : cli_report_failure(job, job->operands[0]);
+}
+
 static cli_exit run(const cli_job *job)
 {
     const cli_subdivide_settings *settings = job->settings;
@@ -196,6 +213,9 @@ static cli_exit run(const cli_job *job)
     mt_mesh *mesh = NULL;
     if (code == CLI_EXIT_DONE) {
         code = cli_read_mesh(job, job->operands[0], &mesh, &read);
+    }
+    if (code == CLI_EXIT_DONE) {
+        code = store_as_profiled(job, mesh);
     }
     if (code == CLI_EXIT_DONE) {
         code = run_on(job, mesh, read);

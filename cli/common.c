@@ -6,6 +6,7 @@
 
 static const char *const precision_choices[] = {"auto", "f32", "f64", NULL};
 static const char *const progress_choices[] = {"auto", "always", "never", NULL};
+static const char *const profile_choices[] = {"balanced", "fast", "exact", NULL}; /* as in profile.h */
 static const char *const encoding_choices[] = {"ascii", "binary", "binary-be", NULL};
 
 /* mt_encoding begins with the default, which has no name. */
@@ -102,6 +103,13 @@ static const cli_option work_options[] = {
 };
 
 static const cli_option every_options[] = {
+    {.name = "profile",
+     .offset = VALUE(profile),
+     .parse = cli_parse_choice,
+     .argument = "NAME",
+     .expects = "fast, balanced or exact",
+     .choices = profile_choices,
+     .help = "settings that trade speed for accuracy: fast, balanced (default) or exact; `meshtool help profiles`"},
     {.name = "json", .offset = VALUE(json), .help = "print one JSON object, for scripts"},
     {.name = "quiet", .letter = 'q', .offset = VALUE(quiet), .help = "no warnings, and no text but errors"},
     {.name = "verbose", .letter = 'v', .offset = VALUE(verbose), .help = "say what is read and written"},

@@ -15,6 +15,7 @@ typedef struct cli_common {
     bool strict_loss, no_clobber, force;
     unsigned threads;
     unsigned precision; /* mt_precision */
+    unsigned profile;   /* cli_profile_name */
     unsigned progress;  /* cli_progress_mode */
     unsigned encoding;  /* mt_encoding */
     uint64_t max_memory;

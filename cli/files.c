@@ -2,6 +2,7 @@
 
 #include "line.h"
 #include "message.h"
+#include "profile.h"
 #include "progress.h"
 #include "quantity.h"
 
@@ -96,6 +97,7 @@ static mt_mesh_write_options mesh_write_options(const cli_job *job)
         .encoding = (mt_encoding)job->common->encoding,
         .strict_loss = job->common->strict_loss,
         .no_clobber = job->common->no_clobber,
+        .digits = job->common->strict_loss ? 0 : cli_profile_of(job->common)->digits,
     };
     return options;
 }
@@ -176,6 +178,25 @@ static void warn_of_loss(const cli_job *job, const char *path, const mt_mesh_for
             loss->count == 1 ? "this is lost" : "these are lost");
 }
 
+/* What the profile gives up in a text file; NULL: nothing. */
+static const char *lost_digits(const mt_mesh_format *format, const mt_mesh_write_options *options, char text[64])
+{
+    bool is_text = format->has_ascii && (options->encoding == MT_ENCODING_ASCII || !format->has_binary);
+    if (options->digits == 0 || !is_text) {
+        return NULL;
+    }
+    snprintf(text, 64, "digits of positions after the %uth", options->digits);
+    return text;
+}
+
+static void warn_of_digits(const cli_job *job, const char *path, const char *digits)
+{
+    if (digits && !job->common->quiet) {
+        cli_progress_clear();
+        fprintf(stderr, "meshtool: %s: --profile %s leaves out %s\n", path, cli_profile_of(job->common)->name, digits);
+    }
+}
+
 cli_exit cli_write_mesh(const cli_job *job, const mt_mesh *mesh, const char *path, json_t **lost)
 {
     mt_mesh_write_options options = mesh_write_options(job);
@@ -183,13 +204,20 @@ cli_exit cli_write_mesh(const cli_job *job, const mt_mesh *mesh, const char *pat
     if (mt_mesh_write_file(job->context, mesh, path, &options, &loss) != MT_OK) {
         return cli_report_failure(job, path);
     }
-    warn_of_loss(job, path, mt_mesh_format_for_output(job->context, path, &options), &loss);
+    char text[64];
+    const mt_mesh_format *format = mt_mesh_format_for_output(job->context, path, &options);
+    const char *digits = lost_digits(format, &options, text);
+    warn_of_loss(job, path, format, &loss);
+    warn_of_digits(job, path, digits);
     cli_say(job, "%s: wrote %s and %s", path, cli_counted(mesh->vertex_count, "vertex").text,
             cli_counted(mesh->face_count, "face").text);
     if (lost) {
         *lost = cli_json_array();
         for (size_t i = 0; i < loss.count; i++) {
             cli_json_append(*lost, cli_json_text(loss.items[i]));
+        }
+        if (digits) {
+            cli_json_append(*lost, cli_json_text(digits));
         }
     }
     return CLI_EXIT_DONE;

@@ -35,13 +35,14 @@ typedef struct preview_settings {
     preview_coloring coloring;
     double crease, fov;
     unsigned projection;                  /* place among the choices; PREVIEW_NO_PROJECTION: not given */
-    unsigned view, shading, method, test; /* places in the library's enumerations */
+    unsigned view, shading, method, test; /* places in the library's enumerations; PREVIEW_NO_TEST: not given */
     unsigned samples, turntable;
     mt_acceleration acceleration;
     bool wireframe, shadows, ground, axes, scale_bar, sheet;
 } preview_settings;
 
 #define PREVIEW_NO_PROJECTION 99u
+#define PREVIEW_NO_TEST 99u
 
 /* For the option table. */
 bool preview_parse_coloring(const cli_option *option, const char *text, void *value);

@@ -1,5 +1,6 @@
 #include "defect_paint.h"
 #include "preview.h"
+#include "profile.h"
 #include "quantity.h"
 
 #include <string.h>
@@ -61,12 +62,13 @@ static mt_projection projection_of(const preview_settings *settings)
 
 static mt_preview_options options_of(const preview_settings *settings)
 {
+    const cli_profile *profile = cli_profile_of(&settings->common);
     mt_preview_options how = {
         .width = settings->size.width,
         .height = settings->size.height,
         .background = settings->background.kind,
         .crease_degrees = settings->crease,
-        .samples = settings->samples,
+        .samples = settings->samples ? settings->samples : profile->samples,
         .projection = projection_of(settings),
         .view = (mt_view_name)settings->view,
         .has_up = settings->up.is_given,
@@ -82,7 +84,7 @@ static mt_preview_options options_of(const preview_settings *settings)
         .scale_bar = settings->scale_bar,
         .method = (mt_visibility_method)settings->method,
         .acceleration = settings->acceleration,
-        .triangle_test = (mt_ray_profile)settings->test,
+        .triangle_test = settings->test == PREVIEW_NO_TEST ? profile->triangle_test : (mt_ray_profile)settings->test,
         .turntable = settings->turntable > 0,
         .measure_skipped = settings->common.measure,
         .count_unseen = settings->common.json,

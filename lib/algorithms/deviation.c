@@ -95,7 +95,8 @@ static mt_status measure(mt_context *context, const mt_deviation_surface *a, con
                          const mt_deviation_options *options, mt_deviation *out)
 {
     out->diagonal = diagonal_of(a->mesh, b->mesh);
-    double tolerance = options->tolerance > 0 ? options->tolerance : DEFAULT_TOLERANCE * out->diagonal;
+    double share = options->relative_tolerance > 0 ? options->relative_tolerance : DEFAULT_TOLERANCE;
+    double tolerance = options->tolerance > 0 ? options->tolerance : share * out->diagonal;
     double spacing = options->spacing > 0 ? options->spacing : DEFAULT_SPACING * out->diagonal;
     mt_deviation_job job = {.context = context, .from = a, .to = b, .spacing = spacing, .out = &out->a_to_b};
     job.maximum_only = options->maximum_only;

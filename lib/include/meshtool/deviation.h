@@ -14,7 +14,8 @@ extern "C" {
 
 /* All zeros means the defaults. */
 typedef struct mt_deviation_options {
-    double tolerance; /* of the maxima, in the meshes' units; 0: 1e-4 of the diagonal */
+    double tolerance;          /* of the maxima, in the meshes' units; 0: the next */
+    double relative_tolerance; /* the same as a share of the diagonal; 0: 1e-4 */
     double spacing; /* of the samples for mean, rms and normals; 0: 1/100 of the diagonal. Triangles are sampled once at
                        least, whatever their size */
     bool maximum_only;   /* leave out mean, rms and normals, which are then NAN: fewer searches */
