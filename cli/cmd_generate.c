@@ -11,10 +11,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+typedef struct generate_magnitude {
+    bool is_given;
+    double value;
+} generate_magnitude;
+
 typedef struct generate_settings {
     cli_common common;
     unsigned resolution;
+    generate_magnitude magnitude;
 } generate_settings;
+
+static bool parse_magnitude(const cli_option *option, const char *text, void *value)
+{
+    generate_magnitude *magnitude = value;
+    magnitude->is_given = true;
+    return cli_parse_number(option, text, &magnitude->value);
+}
 
 static const cli_option options[] = {
     {.name = "resolution",
@@ -26,8 +39,30 @@ static const cli_option options[] = {
      .minimum = 1,
      .maximum = MT_INDEX_MAX,
      .help = "how fine; what N means stands with each kind below"},
+    {.name = "magnitude",
+     .offset = offsetof(generate_settings, magnitude),
+     .parse = parse_magnitude,
+     .argument = "X",
+     .expects = "a number, such as 1e7",
+     .minimum = 0,
+     .maximum = 0x1.fffffffffffffp1023,
+     .help = "how extreme; what X means stands with each extreme below"},
     {0},
 };
+
+static void print_extremes(FILE *out)
+{
+    size_t count = 0;
+    const mt_extreme *extremes = mt_extremes(&count);
+    fputs("Extremes, which break naive programs:\n", out);
+    for (size_t i = 0; i < count; i++) {
+        cli_line line = {0}, name = {0};
+        cli_line_add(&name, "extreme:%s", extremes[i].name);
+        cli_line_add(&line, "%s; X: %s (default %g)", extremes[i].summary, extremes[i].meaning, extremes[i].magnitude);
+        fprintf(out, "  %-20s ", name.text);
+        cli_print_wrapped(out, line.text, 23, 23);
+    }
+}
 
 static void print_kinds(FILE *out)
 {
@@ -43,6 +78,7 @@ static void print_kinds(FILE *out)
         fprintf(out, "  %-15s ", primitives[i].name);
         cli_print_wrapped(out, line.text, 18, 18);
     }
+    print_extremes(out);
 }
 
 static const mt_primitive *find_kind(const char *name)
@@ -89,6 +125,8 @@ static cli_exit make(const cli_job *job)
     const generate_settings *settings = job->settings;
     mt_generate_options how = {
         .resolution = settings->resolution,
+        .magnitude = settings->magnitude.value,
+        .has_magnitude = settings->magnitude.is_given,
         .position_type = settings->common.precision == MT_PRECISION_F32 ? MT_F32 : MT_F64,
     };
     mt_mesh *mesh = NULL;
@@ -108,11 +146,15 @@ static cli_exit make(const cli_job *job)
 static cli_exit run(const cli_job *job)
 {
     const generate_settings *settings = job->settings;
+    bool is_extreme = strncmp(job->operands[0], "extreme:", 8) == 0;
     const mt_primitive *kind = find_kind(job->operands[0]);
-    if (!kind) {
+    if (!kind && !is_extreme) {
         return unknown_kind(job, job->operands[0]);
     }
-    if (settings->resolution && !kind->resolution_meaning) {
+    if (kind && settings->magnitude.is_given) {
+        return cli_wrong_usage(job->command, "a %s has no magnitude; extremes have one", kind->name);
+    }
+    if (kind && settings->resolution && !kind->resolution_meaning) {
         return cli_wrong_usage(job->command, "a %s has no resolution", kind->name);
     }
     const mt_mesh_format *written = NULL;
@@ -122,10 +164,11 @@ static cli_exit run(const cli_job *job)
 
 const cli_command cli_generate_command = {
     .name = "generate",
-    .usage = "KIND -o OUT [--resolution N]",
+    .usage = "KIND -o OUT [--resolution N] [--magnitude X]",
     .summary = "Make a mesh: a cube, a torus, a teapot ...",
     .examples = "  meshtool generate torus -o torus.obj --resolution 64\n"
-                "  meshtool generate cube -o - --to off | meshtool info -\n",
+                "  meshtool generate cube -o - --to off | meshtool info -\n"
+                "  meshtool generate extreme:offset -o far.ply --magnitude 1e9\n",
     .options = options,
     .groups =
         CLI_GROUP_OUTPUT | CLI_GROUP_WRITE | CLI_GROUP_MESH | CLI_GROUP_PRECISION | CLI_GROUP_WORK | CLI_GROUP_EVERY,

@@ -70,8 +70,8 @@ static mt_status fail_unknown(mt_context *context, const char *name)
 static mt_status check_options(mt_context *context, const mt_primitive *primitive, const mt_generate_options *options)
 {
     mt_index resolution = options->resolution;
-    if (options->position_type != 0 && options->position_type != MT_F32 && options->position_type != MT_F64) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "positions are stored as 32-bit or 64-bit floats only");
+    if (options->has_magnitude) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "a %s has no magnitude; extremes have one", primitive->name);
     }
     if (resolution && !primitive->resolution) {
         return mt_fail(context, MT_ERROR_ARGUMENT, "a %s has no resolution to choose, but %u was given",
@@ -94,11 +94,9 @@ static void clear_signs_of_zeros(mt_mesh *mesh)
     }
 }
 
-mt_status mt_generate(mt_context *context, const char *name, const mt_generate_options *options, mt_mesh **out)
+static mt_status generate_primitive(mt_context *context, const char *name, const mt_generate_options *options,
+                                    mt_mesh **out)
 {
-    static const mt_generate_options defaults = {0};
-    options = options ? options : &defaults;
-    *out = NULL;
     const mt_primitive *primitive = find_primitive(name);
     if (!primitive) {
         return fail_unknown(context, name);
@@ -107,7 +105,19 @@ mt_status mt_generate(mt_context *context, const char *name, const mt_generate_o
     if (status != MT_OK) {
         return status;
     }
-    status = primitive->generate(context, options->resolution ? options->resolution : primitive->resolution, out);
+    return primitive->generate(context, options->resolution ? options->resolution : primitive->resolution, out);
+}
+
+mt_status mt_generate(mt_context *context, const char *name, const mt_generate_options *options, mt_mesh **out)
+{
+    static const mt_generate_options defaults = {0};
+    options = options ? options : &defaults;
+    *out = NULL;
+    if (options->position_type != 0 && options->position_type != MT_F32 && options->position_type != MT_F64) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "positions are stored as 32-bit or 64-bit floats only");
+    }
+    mt_status status = strncmp(name, "extreme:", 8) == 0 ? mt_generate_extreme(context, name + 8, options, out)
+                                                         : generate_primitive(context, name, options, out);
     if (status == MT_OK) {
         clear_signs_of_zeros(*out);
     }

@@ -34,6 +34,22 @@ typedef struct mt_sheet {
 } mt_sheet;
 mt_status mt_generate_sheet(mt_context *context, const mt_sheet *sheet, mt_mesh **out);
 
+/* An extreme by its name without "extreme:". */
+mt_status mt_generate_extreme(mt_context *context, const char *name, const mt_generate_options *options, mt_mesh **out);
+
+/* The extremes' shapes, for the table in extremes.c. */
+mt_status mt_extreme_sliver(mt_context *context, double magnitude, mt_mesh **out);
+mt_status mt_extreme_flat(mt_context *context, double magnitude, mt_mesh **out);
+mt_status mt_extreme_nearly_flat(mt_context *context, double magnitude, mt_mesh **out);
+mt_status mt_extreme_walls(mt_context *context, double magnitude, mt_mesh **out);
+mt_status mt_extreme_stadium(mt_context *context, double magnitude, mt_mesh **out);
+mt_status mt_extreme_valence(mt_context *context, double magnitude, mt_mesh **out);
+mt_status mt_extreme_pole(mt_context *context, double magnitude, mt_mesh **out);
+mt_status mt_extreme_polygon(mt_context *context, double magnitude, mt_mesh **out);
+mt_status mt_extreme_duplicates(mt_context *context, double magnitude, mt_mesh **out);
+mt_status mt_extreme_centroids(mt_context *context, double magnitude, mt_mesh **out);
+mt_status mt_extreme_specks(mt_context *context, double magnitude, mt_mesh **out);
+
 mt_status mt_generate_tetrahedron(mt_context *context, mt_index resolution, mt_mesh **out);
 mt_status mt_generate_cube(mt_context *context, mt_index resolution, mt_mesh **out);
 mt_status mt_generate_octahedron(mt_context *context, mt_index resolution, mt_mesh **out);
