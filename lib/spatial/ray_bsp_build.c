@@ -4,6 +4,7 @@
  *
  * The pieces of the cell in work lie at the end of a list, those of the cells that wait before them. Cells of few
  * triangles are tasks of their own, made in parallel and joined in order: the tree depends on the triangles alone. */
+#include "lib/spatial/growing.h"
 #include "lib/spatial/ray_bsp.h"
 
 #define TASK_SIZE 4096
@@ -11,11 +12,6 @@
 
 /* Of the triangles: entries beyond the first of each. */
 #define DUPLICATES_PER_TRIANGLE 3
-
-typedef struct list {
-    void *items;
-    uint64_t count, room;
-} list;
 
 /* A cell that waits, and its node. */
 typedef struct waiting {
@@ -25,7 +21,7 @@ typedef struct waiting {
 
 /* A part of the tree that is made in one go. */
 typedef struct part {
-    list nodes, entries, pieces, above;
+    mt_growing nodes, entries, pieces, above;
     uint32_t node; /* of its root in the top */
     mt_ray_bsp_cell cell;
     bool is_complete;
@@ -36,28 +32,8 @@ typedef struct build_job {
     const mt_packed_triangles *triangles;
     unsigned depth;
     part top;
-    list parts;
+    mt_growing parts;
 } build_job;
-
-/* Makes room for `more` items; false when there is no memory. Inside parallel loops too. */
-static bool reserve(mt_context *context, list *l, uint64_t more, size_t size)
-{
-    if (l->count + more <= l->room) {
-        return true;
-    }
-    uint64_t room = 2 * l->room > l->count + more ? 2 * l->room : l->count + more;
-    void *items = mt_try_allocate(context, room * size);
-    if (!items) {
-        return false;
-    }
-    if (l->count) {
-        memcpy(items, l->items, l->count * size);
-    }
-    mt_free(context, l->items);
-    l->items = items;
-    l->room = room;
-    return true;
-}
 
 static mt_surface_box *pieces_of(const part *p, const mt_ray_bsp_cell *cell)
 {
@@ -67,7 +43,7 @@ static mt_surface_box *pieces_of(const part *p, const mt_ray_bsp_cell *cell)
 static bool make_leaf(const build_job *job, part *p, const waiting *item)
 {
     mt_index count = item->cell.count;
-    if (!reserve(job->context, &p->entries, count, sizeof(mt_index))) {
+    if (!mt_growing_reserve(job->context, &p->entries, count, sizeof(mt_index))) {
         return false;
     }
     const mt_surface_box *pieces = pieces_of(p, &item->cell);
@@ -106,14 +82,14 @@ static bool split(const build_job *job, part *p, const waiting *item, mt_ray_bsp
 {
     mt_ray_bsp_cell cells[2];
     mt_index count = item->cell.count;
-    if (!reserve(job->context, &p->above, count, sizeof(mt_surface_box)) ||
-        !reserve(job->context, &p->nodes, 2, sizeof(mt_ray_bsp_node))) {
+    if (!mt_growing_reserve(job->context, &p->above, count, sizeof(mt_surface_box)) ||
+        !mt_growing_reserve(job->context, &p->nodes, 2, sizeof(mt_ray_bsp_node))) {
         return false;
     }
     mt_surface_box *above = p->above.items;
     mt_ray_bsp_deal(job->triangles, &item->cell, plane, pieces_of(p, &item->cell), above, cells);
     p->pieces.count = p->pieces.count - count + cells[0].count;
-    if (!reserve(job->context, &p->pieces, cells[1].count, sizeof(mt_surface_box))) {
+    if (!mt_growing_reserve(job->context, &p->pieces, cells[1].count, sizeof(mt_surface_box))) {
         return false;
     }
     memcpy((mt_surface_box *)p->pieces.items + p->pieces.count, above, cells[1].count * sizeof *above);
@@ -132,9 +108,9 @@ static bool split(const build_job *job, part *p, const waiting *item, mt_ray_bsp
 static bool make_task(build_job *job, const waiting *item)
 {
     part task = {.node = item->node, .cell = item->cell};
-    if (!reserve(job->context, &job->parts, 1, sizeof task) ||
-        !reserve(job->context, &task.pieces, item->cell.count, sizeof(mt_surface_box)) ||
-        !reserve(job->context, &task.nodes, 1, sizeof(mt_ray_bsp_node))) {
+    if (!mt_growing_reserve(job->context, &job->parts, 1, sizeof task) ||
+        !mt_growing_reserve(job->context, &task.pieces, item->cell.count, sizeof(mt_surface_box)) ||
+        !mt_growing_reserve(job->context, &task.nodes, 1, sizeof(mt_ray_bsp_node))) {
         mt_free(job->context, task.pieces.items);
         return false;
     }
@@ -177,7 +153,7 @@ static void release_work(mt_context *context, part *p)
 {
     mt_free(context, p->pieces.items);
     mt_free(context, p->above.items);
-    p->pieces = p->above = (list){.count = 0};
+    p->pieces = p->above = (mt_growing){.count = 0};
 }
 
 static void make_parts(void *user, uint64_t begin, uint64_t end)
@@ -194,8 +170,8 @@ static bool make_top(build_job *job)
 {
     const mt_packed_triangles *triangles = job->triangles;
     part *top = &job->top;
-    if (!reserve(job->context, &top->pieces, triangles->count, sizeof(mt_surface_box)) ||
-        !reserve(job->context, &top->nodes, 1, sizeof(mt_ray_bsp_node))) {
+    if (!mt_growing_reserve(job->context, &top->pieces, triangles->count, sizeof(mt_surface_box)) ||
+        !mt_growing_reserve(job->context, &top->nodes, 1, sizeof(mt_ray_bsp_node))) {
         return false;
     }
     for (mt_index at = 0; at < triangles->count; at++) {

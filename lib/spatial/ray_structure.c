@@ -47,6 +47,7 @@ static const mt_ray_structure_record aabb = {"aabb", create_tree, destroy_tree, 
 static const mt_ray_structure_record *const records[MT_RAY_STRUCTURE_COUNT] = {
     [MT_RAY_STRUCTURE_AABB] = &aabb,
     [MT_RAY_STRUCTURE_NONE] = &mt_ray_structure_none,
+    [MT_RAY_STRUCTURE_OBB] = &mt_ray_structure_obb,
     [MT_RAY_STRUCTURE_GRID] = &mt_ray_structure_grid,
     [MT_RAY_STRUCTURE_BSP] = &mt_ray_structure_bsp,
 };

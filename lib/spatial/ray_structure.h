@@ -21,6 +21,7 @@ typedef struct mt_ray_structure_record {
     bool (*find_hit)(const void *body, const mt_ray *ray, mt_ray_profile profile, bool any, mt_ray_hit *hit);
 } mt_ray_structure_record;
 
-extern const mt_ray_structure_record mt_ray_structure_none, mt_ray_structure_grid, mt_ray_structure_bsp;
+extern const mt_ray_structure_record mt_ray_structure_none, mt_ray_structure_obb, mt_ray_structure_grid,
+    mt_ray_structure_bsp;
 
 #endif

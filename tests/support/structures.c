@@ -156,3 +156,15 @@ void test_structures_are_tight(const test_structures *structures, const char *me
     }
     assert_int_equal(sum, 0);
 }
+
+void test_structures_agree_on(const test_structures *structures, const char *mesh, const mt_ray *ray)
+{
+    uint64_t count = 0;
+    difference first = {.kind = 0};
+    const comparison job = {structures, 0, &count, &first};
+    compare_ray(&job, 0, ray);
+    if (count) {
+        print_difference(mesh, &first);
+        fail();
+    }
+}

@@ -23,6 +23,9 @@ mt_ray test_grazing_ray(const test_target *target, test_random *random);
  * disagrees. */
 void test_structures_agree(const test_structures *structures, const char *mesh, uint64_t count, uint64_t seed);
 
+/* The same for one ray. */
+void test_structures_agree_on(const test_structures *structures, const char *mesh, const mt_ray *ray);
+
 /* Shoots `count` rays from near an inside point at every vertex, then at the middle of every side of a triangle; fails
  * the test where a structure lets one through. */
 void test_structures_are_tight(const test_structures *structures, const char *mesh, mt_vec3 inside, double jitter,

@@ -15,6 +15,7 @@ extern "C" {
 typedef enum mt_ray_structure_kind {
     MT_RAY_STRUCTURE_AABB = 0, /* a wide tree of axis-aligned boxes: mt_surface_tree */
     MT_RAY_STRUCTURE_NONE,     /* every ray is asked of every triangle */
+    MT_RAY_STRUCTURE_OBB,      /* a tree of boxes turned along the principal axes of what is in them */
     MT_RAY_STRUCTURE_GRID,     /* equal cells, through which a ray goes from one to the next */
     MT_RAY_STRUCTURE_BSP,      /* space halved by planes across the axes */
     MT_RAY_STRUCTURE_COUNT
@@ -22,7 +23,7 @@ typedef enum mt_ray_structure_kind {
 
 typedef struct mt_ray_structure mt_ray_structure;
 
-/* "aabb", "none", "grid" or "bsp"; NULL for what is no kind. */
+/* "aabb", "none", "obb", "grid" or "bsp"; NULL for what is no kind. */
 const char *mt_ray_structure_name(mt_ray_structure_kind kind);
 
 /* Builds the structure over the triangles of a mesh. Mesh and triangulation are borrowed and outlive it. The same for
