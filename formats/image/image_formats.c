@@ -1,6 +1,7 @@
 /* The table of image formats, and writing by a path's extension. */
 #include "formats/image/image_format.h"
 #include "formats/stream/output.h"
+#include "formats/stream/path.h"
 
 #include <string.h>
 #include <strings.h>
@@ -28,14 +29,6 @@ const mt_image_format *mt_image_format_by_extension(const char *extension)
     return NULL;
 }
 
-/* The letters behind the last dot of the last part of the path, "" when there are none. */
-static const char *path_extension(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    const char *dot = strrchr(slash ? slash : path, '.');
-    return dot ? dot + 1 : "";
-}
-
 static void list_extensions(char *text, size_t size)
 {
     text[0] = '\0';
@@ -50,10 +43,11 @@ static void list_extensions(char *text, size_t size)
 const mt_image_format *mt_image_format_for_output(mt_context *context, const char *path,
                                                   const mt_image_write_options *options)
 {
-    const char *extension = options && options->format ? options->format : NULL;
-    if (!extension) {
-        extension = mt_output_is_stream(path) ? "png" : path_extension(path);
+    mt_extension named;
+    if (mt_path_output_extension(context, path, options ? options->format : NULL, "png", &named) != MT_OK) {
+        return NULL;
     }
+    const char *extension = named.text;
     const mt_image_format *format = mt_image_format_by_extension(extension);
     if (format) {
         return format;

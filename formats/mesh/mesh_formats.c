@@ -3,6 +3,7 @@
 #include "formats/mesh/records.h"
 #include "formats/stream/input.h"
 #include "formats/stream/output.h"
+#include "formats/stream/path.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -40,13 +41,11 @@ static void list_extensions(char *text, size_t room)
 const mt_mesh_format *mt_mesh_format_for_output(mt_context *context, const char *path,
                                                 const mt_mesh_write_options *options)
 {
-    const char *extension = options ? options->format : NULL;
-    if (!extension && mt_output_is_stream(path)) {
-        extension = "ply";
+    mt_extension named;
+    if (mt_path_output_extension(context, path, options ? options->format : NULL, "ply", &named) != MT_OK) {
+        return NULL;
     }
-    if (!extension) {
-        extension = mt_path_extension(path);
-    }
+    const char *extension = named.text;
     const mt_mesh_format *format = mt_mesh_format_by_extension(extension);
     if (!format || !format->write) {
         char known[256];

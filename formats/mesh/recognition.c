@@ -1,19 +1,12 @@
 #include "formats/mesh/recognition.h"
 
 #include "formats/stream/input.h"
+#include "formats/stream/path.h"
 
 #include <string.h>
 
 /* From here on a content is believed against the name. Below it a name that tells a format decides. */
 #define SURE_SCORE 50
-
-const char *mt_path_extension(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    const char *base = slash ? slash + 1 : path;
-    const char *dot = strrchr(base, '.');
-    return dot ? dot + 1 : "";
-}
 
 static int score_of(const mt_mesh_format *format, const uint8_t *bytes, size_t size, uint64_t total)
 {
@@ -28,8 +21,8 @@ static const char *known_stranger(const uint8_t *bytes, size_t size)
         size_t size;
         const char *sentence;
     } strangers[] = {
-        {"\x1f\x8b", 2, "is compressed by gzip; decompress it first (gunzip)"},
-        {"\x28\xb5\x2f\xfd", 4, "is compressed by zstd; decompress it first (unzstd)"},
+        {"\x1f\x8b", 2, "is compressed by gzip twice; decompress it first (gunzip)"},
+        {"\x28\xb5\x2f\xfd", 4, "is compressed by zstd twice; decompress it first (unzstd)"},
         {"PK\x03\x04", 4, "is a zip archive; unpack it first"},
         {"\xff\xfe", 2, "is text in UTF-16; convert it to UTF-8 first (iconv -f utf-16 -t utf-8)"},
         {"\xfe\xff", 2, "is text in UTF-16; convert it to UTF-8 first (iconv -f utf-16 -t utf-8)"},
@@ -62,7 +55,7 @@ static mt_status choose(mt_context *context, const mt_input *input, const uint8_
     const char *name = mt_input_name(input);
     int score;
     const mt_mesh_format *best = best_format(bytes, size, mt_input_size(input), &score);
-    const mt_mesh_format *named = mt_mesh_format_by_extension(mt_path_extension(name));
+    const mt_mesh_format *named = mt_mesh_format_by_extension(mt_path_extension(name).text);
     int named_score = score_of(named, bytes, size, mt_input_size(input));
     if (!best) {
         mt_place place = {.file = name};

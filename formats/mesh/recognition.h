@@ -4,9 +4,6 @@
 
 #include <meshtool/mesh_format.h>
 
-/* What follows the last dot of a path's last part; "" when there is none. */
-const char *mt_path_extension(const char *path);
-
 /* The format to read the input with. `wanted` (may be NULL) is an extension that decides alone. A content that
  * belies the name is warned of, and wins. MT_ERROR_SYNTAX when neither content nor name tells, or for 0 bytes. */
 mt_status mt_recognise_mesh(mt_context *context, mt_input *input, const char *wanted, const mt_mesh_format **out);

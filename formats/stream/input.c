@@ -1,6 +1,8 @@
 /* Files are read by pread, never mapped: a file that shrinks is then an error with a sentence instead of a signal. */
 #include "formats/stream/input.h"
 
+#include "formats/stream/expand.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
@@ -19,6 +21,7 @@ struct mt_input {
     uint64_t size;         /* UINT64_MAX: unknown */
     uint64_t offset;       /* bytes handed out */
     const uint8_t *memory; /* of a memory input */
+    mt_expander *expander; /* of a compressed input, whose bytes are those that come out */
     uint8_t *buffer;       /* bytes read ahead */
     size_t buffer_begin, buffer_end;
     uint8_t **chunks; /* of a collected stream, which lies there from chunk_base on */
@@ -59,6 +62,7 @@ void mt_input_close(mt_context *context, mt_input *input)
     for (size_t i = 0; i < input->chunk_count; i++) {
         mt_free(context, input->chunks[i]);
     }
+    mt_expander_destroy(context, input->expander);
     mt_free(context, input->chunks);
     mt_free(context, input->buffer);
     mt_free(context, input->name);
@@ -87,9 +91,8 @@ static mt_status examine_file(mt_context *context, mt_input *input)
     return MT_OK;
 }
 
-mt_status mt_input_open(mt_context *context, const char *path, mt_input **out)
+static mt_status open_plain(mt_context *context, const char *path, mt_input **out)
 {
-    *out = NULL;
     bool standard = strcmp(path, "-") == 0;
     int file = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
     if (file < 0) {
@@ -117,16 +120,74 @@ mt_status mt_input_open(mt_context *context, const char *path, mt_input **out)
     return MT_OK;
 }
 
+/* The kind of compression that the first bytes begin, NULL for none. A file is not read ahead for it. */
+static mt_status find_codec(mt_context *context, mt_input *source, const mt_codec **out)
+{
+    uint8_t magic[MT_CODEC_MAGIC];
+    const uint8_t *bytes = magic;
+    size_t size = 0;
+    mt_status status = MT_OK;
+    *out = NULL;
+    if (mt_input_can_read_at(source)) {
+        size = mt_input_read_at(source, 0, magic, sizeof magic);
+    } else {
+        status = mt_input_peek(context, source, &bytes, &size);
+    }
+    if (status == MT_OK && size != SIZE_MAX) {
+        *out = mt_codec_of_content(bytes, size);
+    }
+    return status;
+}
+
+/* Takes the source over: itself when its bytes are plain, or what comes out of them. */
+static mt_status see_through(mt_context *context, mt_input *source, mt_input **out)
+{
+    const mt_codec *codec;
+    mt_status status = find_codec(context, source, &codec);
+    if (status != MT_OK) {
+        mt_input_close(context, source);
+        return status;
+    }
+    if (!codec) {
+        *out = source;
+        return MT_OK;
+    }
+    mt_input *input = create_input(context, source->name);
+    mt_expander *expander = NULL;
+    status = mt_expander_create(context, codec, source, &expander);
+    if (input && status == MT_OK) {
+        input->size = UINT64_MAX;
+        input->expander = expander;
+        input->buffer = mt_allocate(context, BUFFER_SIZE);
+    } else {
+        mt_expander_destroy(context, expander);
+    }
+    if (!input || !input->buffer) {
+        mt_input_close(context, input);
+        return mt_context_error(context)->status;
+    }
+    *out = input;
+    return MT_OK;
+}
+
+mt_status mt_input_open(mt_context *context, const char *path, mt_input **out)
+{
+    mt_input *plain = NULL;
+    *out = NULL;
+    mt_status status = open_plain(context, path, &plain);
+    return status == MT_OK ? see_through(context, plain, out) : status;
+}
+
 mt_status mt_input_open_memory(mt_context *context, const char *name, const void *bytes, size_t size, mt_input **out)
 {
-    mt_input *input = create_input(context, name);
-    *out = input;
-    if (!input) {
+    *out = NULL;
+    mt_input *plain = create_input(context, name);
+    if (!plain) {
         return MT_ERROR_OUT_OF_MEMORY;
     }
-    input->memory = bytes;
-    input->size = size;
-    return MT_OK;
+    plain->memory = bytes;
+    plain->size = size;
+    return see_through(context, plain, out);
 }
 
 const char *mt_input_name(const mt_input *input)
@@ -243,6 +304,9 @@ static mt_status read_on(mt_context *context, mt_input *input, uint64_t offset, 
     if (input->memory || input->chunks) {
         *got = mt_input_read_at(input, offset, bytes, size);
         return MT_OK;
+    }
+    if (input->expander) {
+        return mt_expander_read(context, input->expander, bytes, size, got);
     }
     *got = read_file(input, offset, bytes, size);
     if (*got == SIZE_MAX) {

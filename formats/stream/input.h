@@ -1,5 +1,6 @@
 /* Bytes to read: a file, standard input, or memory. No file is mapped, so one that shrinks while it is
- * read is an error and not a signal. */
+ * read is an error and not a signal. What gzip or zstd compressed is recognised by its content and read as what comes
+ * out of it, a stream: sizes and offsets are those of the expanded bytes. */
 #ifndef MESHTOOL_STREAM_INPUT_H
 #define MESHTOOL_STREAM_INPUT_H
 
@@ -8,7 +9,9 @@
 #define MT_INPUT_PEEK 4096 /* bytes that mt_input_peek can show */
 
 /* Opens path ("-": standard input). MT_ERROR_IO says why not: missing, no permission. A directory is
- * MT_ERROR_UNSUPPORTED. */
+ * MT_ERROR_UNSUPPORTED, and so is compression whose library was left out. Reading then fails with MT_ERROR_SYNTAX for
+ * compressed data that is damaged or incomplete, with its place in the compressed file, and with MT_ERROR_TOO_LARGE
+ * past the cap of formats/stream/expand.h. */
 mt_status mt_input_open(mt_context *context, const char *path, mt_input **out);
 /* Reads from memory that outlives the input. */
 mt_status mt_input_open_memory(mt_context *context, const char *name, const void *bytes, size_t size, mt_input **out);

@@ -2,6 +2,8 @@
  * otherwise under a name beside the target, and takes its place by a rename at the end. */
 #include "formats/stream/output.h"
 
+#include "formats/stream/pack.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -25,7 +27,8 @@ struct mt_output {
     bool unnamed;  /* the file has no name yet */
     bool has_name; /* the file at `temporary` must go if the run fails */
     bool no_clobber;
-    mt_status status; /* the first failure */
+    mt_status status;  /* the first failure */
+    mt_packer *packer; /* NULL: the bytes are written as they are */
     char *buffer;
     size_t buffer_size, buffer_capacity; /* in memory outputs the buffer holds everything */
 };
@@ -70,6 +73,7 @@ static void destroy_output(mt_context *context, mt_output *output)
     mt_free(context, output->name);
     mt_free(context, output->target);
     mt_free(context, output->temporary);
+    mt_packer_destroy(context, output->packer);
     mt_free(context, output->buffer);
     mt_free(context, output);
 }
@@ -181,11 +185,25 @@ static mt_status open_beside(mt_context *context, mt_output *output)
     return output->file < 0 ? fail_output(context, output->name, "could not be created", errno) : MT_OK;
 }
 
+/* By the name's end, as compressing tools name files. */
+static mt_status open_packer(mt_context *context, mt_output *output)
+{
+    const mt_codec *codec = mt_codec_of_path(output->name);
+    if (codec && !codec->create_packer) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "%s: this meshtool was built without %s", output->name,
+                       codec->library);
+    }
+    return codec ? mt_packer_create(context, codec, &output->packer) : MT_OK;
+}
+
 static mt_status open_regular(mt_context *context, mt_output *output)
 {
     struct stat old;
     bool exists;
     mt_status status = examine_target(context, output, &old, &exists);
+    if (status == MT_OK) {
+        status = open_packer(context, output);
+    }
     if (status == MT_OK) {
         status = resolve_target(context, output, exists);
     }
@@ -228,8 +246,9 @@ mt_status mt_output_open_memory(mt_context *context, mt_output **out)
     return *out ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
 }
 
-static mt_status write_file(mt_context *context, mt_output *output, const char *bytes, size_t size)
+static mt_status write_file(mt_context *context, void *user, const char *bytes, size_t size)
 {
+    mt_output *output = (mt_output *)user;
     while (size > 0) {
         ssize_t written = write(output->file, bytes, size);
         if (written < 0 && errno == EINTR) {
@@ -245,11 +264,20 @@ static mt_status write_file(mt_context *context, mt_output *output, const char *
     return MT_OK;
 }
 
-static mt_status flush_output(mt_context *context, mt_output *output)
+static mt_status send(mt_context *context, mt_output *output, const char *bytes, size_t size, bool finish)
+{
+    if (!output->packer) {
+        return write_file(context, output, bytes, size);
+    }
+    output->status = mt_packer_write(context, output->packer, bytes, size, finish, write_file, output);
+    return output->status;
+}
+
+static mt_status flush_output(mt_context *context, mt_output *output, bool finish)
 {
     size_t size = output->buffer_size;
     output->buffer_size = 0;
-    return write_file(context, output, output->buffer, size);
+    return send(context, output, output->buffer, size, finish);
 }
 
 static mt_status grow_memory(mt_context *context, mt_output *output, size_t size)
@@ -278,9 +306,9 @@ mt_status mt_output_write(mt_context *context, mt_output *output, const void *by
     if (status == MT_OK && output->file < 0) {
         status = grow_memory(context, output, size);
     } else if (status == MT_OK && output->buffer_capacity - output->buffer_size < size) {
-        status = flush_output(context, output);
+        status = flush_output(context, output, false);
         if (status == MT_OK && size >= output->buffer_capacity) {
-            return write_file(context, output, bytes, size);
+            return send(context, output, bytes, size, false);
         }
     }
     if (status == MT_OK && size > 0) {
@@ -357,7 +385,7 @@ mt_status mt_output_commit(mt_context *context, mt_output *output)
 {
     mt_status status = output->status;
     if (status == MT_OK && output->file >= 0) {
-        status = flush_output(context, output);
+        status = flush_output(context, output, true);
     }
     if (status == MT_OK && output->target) {
         status = put_into_place(context, output);

@@ -1,5 +1,6 @@
 /* Bytes to write, buffered. A regular file is written beside its place and renamed by mt_output_commit;
- * mt_output_abandon leaves the old file and nothing new. Standard output, devices and pipes are written into. */
+ * mt_output_abandon leaves the old file and nothing new. Standard output, devices and pipes are written into. A regular
+ * file whose name ends in .gz or .zst is compressed: the same bytes for the same content, at any time. */
 #ifndef MESHTOOL_STREAM_OUTPUT_H
 #define MESHTOOL_STREAM_OUTPUT_H
 

@@ -90,7 +90,7 @@ static void test_what_is_no_mesh(void **state)
     (void)state;
     check_refused("a.txt", "", 0, NULL, MT_ERROR_SYNTAX, "is empty (0 bytes)");
     check_refused("a.txt", "hello\n", 6, NULL, MT_ERROR_SYNTAX, "neither the content nor the name");
-    check_refused("a.obj.gz", "\x1f\x8b\x08\0\0\0\0\0", 8, NULL, MT_ERROR_UNSUPPORTED, "gzip");
+    check_refused("a.obj.gz", "\x1f\x8b\x08\0\0\0\0\0", 8, NULL, MT_ERROR_SYNTAX, "gzip");
     check_refused("a.obj", "\xff\xfev\0 \0", 6, NULL, MT_ERROR_UNSUPPORTED, "UTF-16");
     check_refused("a.obj", OBJ, strlen(OBJ), "xyz", MT_ERROR_ARGUMENT, "no mesh format is called \"xyz\"");
     check_refused("a.ply", "hello\n", 6, NULL, MT_ERROR_SYNTAX, "a.ply:1");
