@@ -3,13 +3,14 @@
 #define MESHTOOL_MESHTOOL_H
 
 /* The ground floor */
-#include <meshtool/checked.h>    /* sizes that say when they overflow */
-#include <meshtool/clones.h>     /* loops compiled for wider instructions */
-#include <meshtool/context.h>    /* memory, threads, progress, errors, explain */
-#include <meshtool/elementary.h> /* sin, cos, log ... with the same bits everywhere */
-#include <meshtool/predicates.h> /* exact orientation */
-#include <meshtool/types.h>      /* indices, status codes, number types */
-#include <meshtool/vector.h>     /* three doubles */
+#include <meshtool/area_vector.h> /* of any polygon, whatever its size and shape */
+#include <meshtool/checked.h>     /* sizes that say when they overflow */
+#include <meshtool/clones.h>      /* loops compiled for wider instructions */
+#include <meshtool/context.h>     /* memory, threads, progress, errors, explain */
+#include <meshtool/elementary.h>  /* sin, cos, log ... with the same bits everywhere */
+#include <meshtool/predicates.h>  /* exact orientation */
+#include <meshtool/types.h>       /* indices, status codes, number types */
+#include <meshtool/vector.h>      /* three doubles */
 
 /* The hub */
 #include <meshtool/attribute.h>        /* normals, UVs, colours */
@@ -47,6 +48,7 @@
 /* Algorithms */
 #include <meshtool/deviation.h>         /* how far two meshes lie apart */
 #include <meshtool/manifold.h>          /* the check that finds everything */
+#include <meshtool/normals.h>           /* of faces, vertices and corners */
 #include <meshtool/repair.h>            /* mending, with an account */
 #include <meshtool/self_intersection.h> /* faces that meet where they should not, decided exactly */
 #include <meshtool/signed_distance.h>   /* negative inside */
