@@ -27,6 +27,11 @@ mt_transform mt_transform_then(const mt_transform *first, const mt_transform *se
 
 mt_vec3 mt_transform_point(const mt_transform *transform, mt_vec3 point);
 
+/* What undoes the transformation. False, with *out undefined, when nothing does: a number is not finite or too large,
+ * or the determinant of `linear` is less than 2^-36 of the product of its rows' lengths. Mirror images can be undone.
+ */
+bool mt_transform_inverse(const mt_transform *transform, mt_transform *out);
+
 /* Transforms the mesh in place: positions in double arithmetic, rounded once to their precision (past its range they
  * become infinite, with a warning); normals by the inverse transpose, their lengths kept. A scale by a power of two is
  * exact and leaves normals as they are, bit for bit. Other attributes stay.
