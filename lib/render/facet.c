@@ -2,6 +2,7 @@
 #include "lib/render/facet.h"
 
 #include "lib/render/crossing.h"
+#include "lib/render/interpolate.h"
 #include "lib/render/shadow.h"
 
 #include <math.h>
@@ -16,11 +17,6 @@
 static mt_vec3 toward_eye(const mt_look *look, double x, double y)
 {
     return mt_camera_toward_eye(&look->frame->camera, x / MT_STEPS, y / MT_STEPS);
-}
-
-static mt_vec3 facing(mt_vec3 normal, mt_vec3 side)
-{
-    return mt_vec3_dot(normal, side) < 0 ? mt_vec3_scale(normal, -1.0) : normal;
 }
 
 static bool same(mt_vec3 a, mt_vec3 b)
@@ -121,12 +117,12 @@ static void prepare_colors(const mt_look *look, const source *from, mt_facet *fa
 
 static void prepare_normals(const mt_look *look, const source *from, mt_vec3 eye, mt_facet *facet)
 {
-    mt_vec3 side = facing(mt_face_normal(look->normals, from->face), eye);
+    mt_vec3 side = mt_facing(mt_face_normal(look->normals, from->face), eye);
     facet->one_normal = true;
     facet->face_normal = side;
     for (int i = 0; i < 3; i++) {
         mt_vec3 normal = mt_corner_normal(look->normals, from->face, from->corners[i]);
-        facet->normals[i] = mt_vec3_dot(normal, normal) > 0 ? facing(normal, side) : eye;
+        facet->normals[i] = mt_vec3_dot(normal, normal) > 0 ? mt_facing(normal, side) : eye;
         facet->one_normal = facet->one_normal && same(facet->normals[0], facet->normals[i]);
     }
     for (int i = 0; look->shadows && i < 3; i++) {
@@ -134,33 +130,10 @@ static void prepare_normals(const mt_look *look, const source *from, mt_vec3 eye
     }
 }
 
-static mt_vec3 unit_or(mt_vec3 a, mt_vec3 otherwise)
-{
-    double length = mt_vec3_length(a);
-    return length > 0 ? mt_vec3_scale(a, 1.0 / length) : otherwise;
-}
-
-static mt_vec3 weigh(const mt_vec3 values[3], const double weights[3])
-{
-    return mt_vec3_make(values[0].x * weights[0] + values[1].x * weights[1] + values[2].x * weights[2],
-                        values[0].y * weights[0] + values[1].y * weights[1] + values[2].y * weights[2],
-                        values[0].z * weights[0] + values[1].z * weights[1] + values[2].z * weights[2]);
-}
-
-/* Where shadow rays start: on the surface that the normals at the corners make believe, above the flat triangle, so
- * that it does not shade itself in steps (Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021). */
 static mt_vec3 smooth_position(const mt_facet *facet, const double weights[3])
 {
-    mt_vec3 p = weigh(facet->positions, weights);
-    if (facet->one_normal) {
-        return p;
-    }
-    mt_vec3 raised[3];
-    for (int i = 0; i < 3; i++) {
-        double below = mt_vec3_dot(mt_vec3_subtract(p, facet->positions[i]), facet->normals[i]);
-        raised[i] = mt_vec3_subtract(p, mt_vec3_scale(facet->normals[i], below < 0 ? below : 0.0));
-    }
-    return weigh(raised, weights);
+    mt_vec3 p = mt_weigh(facet->positions, weights);
+    return facet->one_normal ? p : mt_lifted_position(p, facet->positions, facet->normals, weights);
 }
 
 static bool is_shadowed(const mt_look *look, const mt_facet *facet, const double weights[3])
@@ -177,7 +150,7 @@ static bool light_small(const mt_look *look, double size, mt_vec3 eye, mt_facet 
     if (size >= SMALL_SIZE || (size >= TINY_SIZE && varies) || look->paint == MT_PAINT_DEPTH) {
         return false;
     }
-    mt_vec3 normal = unit_or(mt_vec3_add(mt_vec3_add(n[0], n[1]), n[2]), eye);
+    mt_vec3 normal = mt_unit_or(mt_vec3_add(mt_vec3_add(n[0], n[1]), n[2]), eye);
     bool flat = mt_vec3_dot(normal, n[0]) >= SMALL_COSINE && mt_vec3_dot(normal, n[1]) >= SMALL_COSINE &&
                 mt_vec3_dot(normal, n[2]) >= SMALL_COSINE;
     if (size >= TINY_SIZE && !flat) {
@@ -239,9 +212,9 @@ mt_vec3 mt_facet_shade(const mt_look *look, const mt_facet *facet, double x, dou
     point.depth = find_weights(look, facet, x, y, weights);
     point.normal = facet->normals[0];
     if (!facet->one_normal) {
-        point.normal = unit_or(weigh(facet->normals, weights), point.toward_eye);
+        point.normal = mt_unit_or(mt_weigh(facet->normals, weights), point.toward_eye);
     }
-    point.color = facet->one_color ? facet->colors[0] : weigh(facet->colors, weights);
+    point.color = facet->one_color ? facet->colors[0] : mt_weigh(facet->colors, weights);
     return mt_look_light(look, &point);
 }
 

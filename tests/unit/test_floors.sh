@@ -11,7 +11,7 @@ declare -A public_floor=(
     [ray]=spatial [ray_structure]=spatial [closest_point]=spatial [surface_tree]=spatial
     [image]=image
     [deviation]=algorithms [signed_distance]=algorithms [manifold]=algorithms [subdivide]=algorithms
-    [preview]=render
+    [preview]=render [scene]=render
     [meshtool]=umbrella
 )
 declare -A rank=([base]=0 [mesh]=1 [topology]=2 [spatial]=2 [image]=2 [algorithms]=3 [render]=3 [formats]=4 [umbrella]=5)

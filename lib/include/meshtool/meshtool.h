@@ -43,6 +43,7 @@
 #include <meshtool/closest_point.h> /* nearest points of triangles, wires and points */
 #include <meshtool/ray.h>           /* where a ray meets a triangle */
 #include <meshtool/ray_structure.h> /* what rays search: boxes, a grid, a BSP tree, or nothing */
+#include <meshtool/shape.h>         /* planes, spheres and triangles by their formulas */
 #include <meshtool/surface_tree.h>  /* a wide tree for rays and closest points */
 
 /* Algorithms */
@@ -58,10 +59,12 @@
 #include <meshtool/image.h>   /* float raster */
 #include <meshtool/ink.h>     /* lines and letters on a picture */
 #include <meshtool/preview.h> /* a picture of any mesh */
+#include <meshtool/scene.h>   /* objects, materials, lights: ray tracing */
 
 /* Files */
 #include <meshtool/file.h>         /* any bytes, written as all outputs are */
 #include <meshtool/image_format.h> /* PNG, PPM */
 #include <meshtool/mesh_format.h>  /* OBJ, OFF, PLY, STL */
+#include <meshtool/scene_format.h> /* scenes in JSON */
 
 #endif
