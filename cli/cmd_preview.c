@@ -3,21 +3,6 @@
 
 #include <string.h>
 
-static bool parse_size(const cli_option *option, const char *text, void *value)
-{
-    (void)option;
-    double width = 0, height = 0;
-    if (!cli_scan_number(&text, &width) || *text++ != 'x' || !cli_scan_number(&text, &height) || *text) {
-        return false;
-    }
-    if (width < 1 || height < 1 || width > MT_PREVIEW_MAXIMUM_SIZE || height > MT_PREVIEW_MAXIMUM_SIZE ||
-        width != (uint32_t)width || height != (uint32_t)height) {
-        return false;
-    }
-    *(preview_size *)value = (preview_size){(uint32_t)width, (uint32_t)height};
-    return true;
-}
-
 static bool parse_background(const cli_option *option, const char *text, void *value)
 {
     (void)option;
@@ -37,22 +22,6 @@ static bool parse_background(const cli_option *option, const char *text, void *v
         }
     }
     return true;
-}
-
-static bool parse_samples(const cli_option *option, const char *text, void *value)
-{
-    static const unsigned known[] = {1, 4, 9, 16, 25, 36, 49, 64};
-    if (strcmp(text, "adaptive") == 0) {
-        *(unsigned *)value = MT_SAMPLES_ADAPTIVE;
-        return true;
-    }
-    bool found = cli_parse_count(option, text, value);
-    for (size_t i = 0; found && i < sizeof known / sizeof known[0]; i++) {
-        if (*(unsigned *)value == known[i]) {
-            return true;
-        }
-    }
-    return false;
 }
 
 static bool parse_point(const cli_option *option, const char *text, void *value)
@@ -86,7 +55,7 @@ static const char *const tests[] = {"watertight", "fast", "exact", NULL};
 static const cli_option options[] = {
     {.name = "size",
      .offset = SETTING(size),
-     .parse = parse_size,
+     .parse = cli_parse_picture_size,
      .argument = "WxH",
      .expects = "a width and a height in pixels from 1 to 65535, such as 1920x1080",
      .help = "pixels; 1024x1024"},
@@ -133,7 +102,7 @@ static const cli_option options[] = {
      .help = "angle of the picture's shorter side; 28, or with --eye what shows all"},
     {.name = "samples",
      .offset = SETTING(samples),
-     .parse = parse_samples,
+     .parse = cli_parse_samples,
      .argument = "N",
      .expects = "a square number from 1 to 64, or adaptive",
      .minimum = 1,

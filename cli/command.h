@@ -59,6 +59,7 @@ extern const cli_command cli_help_command;
 extern const cli_command cli_info_command;
 extern const cli_command cli_normals_command;
 extern const cli_command cli_preview_command;
+extern const cli_command cli_render_command;
 extern const cli_command cli_repair_command;
 extern const cli_command cli_subdivide_command;
 extern const cli_command cli_topology_command;

@@ -4,12 +4,9 @@
 
 #include "files.h"
 #include "message.h"
+#include "picture.h"
 
 #include <meshtool/preview.h>
-
-typedef struct preview_size {
-    uint32_t width, height;
-} preview_size;
 
 typedef struct preview_background {
     mt_background kind;
@@ -29,7 +26,7 @@ typedef struct preview_coloring {
 
 typedef struct preview_settings {
     cli_common common;
-    preview_size size;
+    cli_picture_size size;
     preview_background background;
     preview_point up, eye, target;
     preview_coloring coloring;

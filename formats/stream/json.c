@@ -70,7 +70,7 @@ uint64_t mt_json_bound(const void *bytes, size_t size)
     return scan_text(bytes, size).bound;
 }
 
-static mt_place place_of(const char *name, const char *text, size_t size, size_t at)
+mt_place mt_json_place(const char *name, const char *text, size_t size, size_t at)
 {
     mt_place place = {.file = name, .line = 1, .column = 1};
     at = at < size ? at : size;
@@ -112,7 +112,7 @@ static mt_status fail_parsing(mt_context *context, const char *name, const char 
     /* The position is that of the byte after what jansson read, and of the bad byte itself when it is no UTF-8. */
     size_t at = (size_t)error->position;
     at -= at > 0 && code != json_error_invalid_utf8;
-    mt_place place = place_of(name, text, size, at);
+    mt_place place = mt_json_place(name, text, size, at);
     const char *sentence = sentence_of(code);
     if (sentence) {
         return mt_fail_at(context, MT_ERROR_SYNTAX, place, "%s", sentence);
@@ -132,7 +132,7 @@ static mt_status refuse_nul(mt_context *context, const char *name, const char *t
     if (!nul) {
         return MT_OK;
     }
-    mt_place place = place_of(name, text, size, (size_t)(nul - text));
+    mt_place place = mt_json_place(name, text, size, (size_t)(nul - text));
     return mt_fail_at(context, MT_ERROR_SYNTAX, place, "a NUL byte stands here, which JSON does not hold");
 }
 
@@ -157,7 +157,7 @@ mt_status mt_json_parse(mt_context *context, const char *name, const void *bytes
     size_t mark = size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
     scan seen = scan_text(text + mark, size - mark);
     if (seen.too_deep != SIZE_MAX) {
-        return mt_fail_at(context, MT_ERROR_SYNTAX, place_of(name, text, size, mark + seen.too_deep),
+        return mt_fail_at(context, MT_ERROR_SYNTAX, mt_json_place(name, text, size, mark + seen.too_deep),
                           "brackets are nested more than %d deep", MT_JSON_DEPTH);
     }
     mt_status status = refuse_nul(context, name, text, size);

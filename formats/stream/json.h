@@ -35,17 +35,26 @@ typedef struct mt_json_node {
     const struct mt_json_node *parent; /* NULL: the root */
     const char *key;                   /* the root's: the file's name; NULL: element number `index` of an array */
     size_t index;
-    json_t *value; /* NULL: there is none */
+    json_t *value;    /* NULL: there is none */
+    const char *text; /* of the root, when failures are to name line and column; else NULL */
+    size_t size;
 } mt_json_node;
 
 /* The root; name as in mt_json_parse. */
 mt_json_node mt_json_root(const char *name, const mt_json *json);
+/* The same, and failures name line and column too: those of the value, or of what it is missing from. The text is the
+ * one that was parsed, and outlives the node. */
+mt_json_node mt_json_root_of_text(const char *name, const mt_json *json, const void *bytes, size_t size);
+/* The byte of the text at which a value begins, or its key; what it is missing from, when it is not there. */
+size_t mt_json_offset(const char *text, size_t size, const mt_json_node *node, bool at_key);
+/* Line and column of a byte. */
+mt_place mt_json_place(const char *name, const char *text, size_t size, size_t at);
 /* The member with that key; its value is NULL when there is none, or the parent is no object. */
 mt_json_node mt_json_member(const mt_json_node *parent, const char *key);
 /* Element number `index`; its value is NULL past the end. */
 mt_json_node mt_json_element(const mt_json_node *parent, size_t index);
 
-/* Fails with "NAME: accessors[3].count: " and the sentence. */
+/* Fails with "NAME: accessors[3].count: " and the sentence; "NAME:LINE:COLUMN: ..." where the root knows its text. */
 mt_status mt_json_fail(mt_context *context, const mt_json_node *node, mt_status status, const char *format, ...)
     MT_PRINTF(4, 5);
 /* Fails with "expected `what`, got" and what stands there, or "is missing, expected `what`". MT_ERROR_SYNTAX. */

@@ -11,6 +11,11 @@ mt_json_node mt_json_root(const char *name, const mt_json *json)
     return (mt_json_node){.key = name, .value = json->root};
 }
 
+mt_json_node mt_json_root_of_text(const char *name, const mt_json *json, const void *bytes, size_t size)
+{
+    return (mt_json_node){.key = name, .value = json->root, .text = (const char *)bytes, .size = size};
+}
+
 mt_json_node mt_json_member(const mt_json_node *parent, const char *key)
 {
     return (mt_json_node){.parent = parent, .key = key, .value = json_object_get(parent->value, key)};
@@ -21,12 +26,12 @@ mt_json_node mt_json_element(const mt_json_node *parent, size_t index)
     return (mt_json_node){.parent = parent, .index = index, .value = json_array_get(parent->value, index)};
 }
 
-static const char *file_of(const mt_json_node *node)
+static const mt_json_node *root_of(const mt_json_node *node)
 {
     while (node->parent) {
         node = node->parent;
     }
-    return node->key;
+    return node;
 }
 
 /* A key as it may stand in a message: printable, not long, and cut between characters. */
@@ -76,12 +81,16 @@ void mt_json_path(const mt_json_node *node, char text[MT_JSON_PATH])
 mt_status mt_json_fail(mt_context *context, const mt_json_node *node, mt_status status, const char *format, ...)
 {
     char path[MT_JSON_PATH], sentence[512];
-    mt_place place = {.file = file_of(node)};
+    const mt_json_node *root = root_of(node);
+    mt_place place = {.file = root->key};
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
     mt_json_path(node, path);
+    if (root->text) {
+        place = mt_json_place(root->key, root->text, root->size, mt_json_offset(root->text, root->size, node, false));
+    }
     return mt_fail_at(context, status, place, "%s: %s", path, sentence);
 }
 
