@@ -145,16 +145,15 @@ static cli_exit write(const cli_job *job, const mt_mesh *mesh, const char *path)
 
 static cli_exit run(const cli_job *job)
 {
-    const char *path = job->common->output;
-    if (job->operand_count == 2 && path) {
-        return cli_wrong_usage(job->command, "where to write is given twice, as %s and as -o %s", job->operands[1],
-                               path);
+    const char *path;
+    cli_exit code = cli_output_operand(job, &path);
+    if (code != CLI_EXIT_DONE) {
+        return code;
     }
     cli_job input = *job;
     input.operand_count = 1;
-    path = job->operand_count == 2 ? job->operands[1] : path;
     const mt_mesh_format *read = NULL, *written = NULL;
-    cli_exit code = cli_check_inputs(&input);
+    code = cli_check_inputs(&input);
     if (code == CLI_EXIT_DONE) {
         code = cli_check_mesh_output(job, path, &written);
     }

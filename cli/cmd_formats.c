@@ -83,7 +83,7 @@ static json_t *image_format_json(const mt_image_format *format)
     cli_json_set(object, "name", cli_json_text(format->name));
     cli_json_set(object, "title", cli_json_text(format->title));
     cli_json_set(object, "extensions", texts_json(format->extensions));
-    cli_json_set(object, "read", json_false());
+    cli_json_set(object, "read", json_boolean(format->read != NULL));
     cli_json_set(object, "write", json_boolean(format->write != NULL));
     cli_json_set(object, "alpha", json_boolean(format->holds_alpha));
     return object;
@@ -147,7 +147,8 @@ static cli_exit run(const cli_job *job)
     puts("\nPictures:");
     for (const mt_image_format *const *format = mt_image_formats(); *format; format++) {
         print_extensions((*format)->extensions);
-        printf("%s\n    written%s\n", (*format)->title, (*format)->holds_alpha ? ", transparent or not" : "");
+        printf("%s\n    %s; written%s\n", (*format)->title, (*format)->read ? "read" : "not read",
+               (*format)->holds_alpha ? ", transparent or not" : "");
     }
     return CLI_EXIT_DONE;
 }

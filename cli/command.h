@@ -56,6 +56,7 @@ extern const cli_command cli_distance_command;
 extern const cli_command cli_formats_command;
 extern const cli_command cli_generate_command;
 extern const cli_command cli_help_command;
+extern const cli_command cli_image_command;
 extern const cli_command cli_info_command;
 extern const cli_command cli_normals_command;
 extern const cli_command cli_preview_command;

@@ -223,12 +223,31 @@ cli_exit cli_write_mesh(const cli_job *job, const mt_mesh *mesh, const char *pat
     return CLI_EXIT_DONE;
 }
 
-cli_exit cli_write_image(const cli_job *job, const mt_image *image, const char *path)
+cli_exit cli_write_image_as(const cli_job *job, const mt_image *image, const char *path,
+                            const mt_image_write_options *how)
 {
-    mt_image_write_options options = {.format = cli_extension(job->common->to), .no_clobber = job->common->no_clobber};
+    mt_image_write_options options = *how;
+    options.format = cli_extension(job->common->to);
+    options.no_clobber = job->common->no_clobber;
     if (mt_image_write_file(job->context, image, path, &options) != MT_OK) {
         return cli_report_failure(job, path);
     }
     cli_say(job, "%s: wrote %u x %u pixels", path, image->width, image->height);
+    return CLI_EXIT_DONE;
+}
+
+cli_exit cli_write_image(const cli_job *job, const mt_image *image, const char *path)
+{
+    mt_image_write_options defaults = {0};
+    return cli_write_image_as(job, image, path, &defaults);
+}
+
+cli_exit cli_output_operand(const cli_job *job, const char **path)
+{
+    *path = job->operand_count == 2 ? job->operands[1] : job->common->output;
+    if (job->operand_count == 2 && job->common->output) {
+        return cli_wrong_usage(job->command, "where to write is given twice, as %s and as -o %s", job->operands[1],
+                               job->common->output);
+    }
     return CLI_EXIT_DONE;
 }

@@ -28,6 +28,13 @@ cli_exit cli_read_mesh(const cli_job *job, const char *path, mt_mesh **out, cons
  * caller's; NULL: not wanted). A failure is said and returned. */
 cli_exit cli_write_mesh(const cli_job *job, const mt_mesh *mesh, const char *path, json_t **lost);
 cli_exit cli_write_image(const cli_job *job, const mt_image *image, const char *path);
+/* The same with the bits and the quality given. */
+cli_exit cli_write_image_as(const cli_job *job, const mt_image *image, const char *path,
+                            const mt_image_write_options *how);
+
+/* Where to write for commands of the form IN OUT: the second operand, or what -o gives (NULL: neither). Both are wrong
+ * usage, which is said. */
+cli_exit cli_output_operand(const cli_job *job, const char **path);
 
 /* The name of an extension without its dot, as tables hold it. */
 const char *cli_extension(const char *text);

@@ -57,7 +57,7 @@ static struct poptOption *make_parser_table(const cli_option *const *tables, con
             struct poptOption *record = &records[number];
             record->longName = parser_name(option->name);
             record->shortName = option->letter;
-            record->argInfo = option->parse ? POPT_ARG_STRING : POPT_ARG_NONE;
+            record->argInfo = option->argument ? POPT_ARG_STRING : POPT_ARG_NONE;
             by_number[number] = option;
             record->val = ++number;
         }
@@ -86,7 +86,8 @@ static bool store(const cli_option *option, const char *text, void *settings, ch
         return true;
     }
     char room[64];
-    snprintf(problem, problem_size, "%s expects %s, not \"%s\"", spelling(option, room), option->expects, text);
+    snprintf(problem, problem_size, text ? "%s expects %s, not \"%s\"" : "%s: expected %s", spelling(option, room),
+             option->expects, text);
     return false;
 }
 

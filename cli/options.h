@@ -8,7 +8,8 @@
 
 typedef struct cli_option cli_option;
 
-/* Turns the text of an option's value into what is stored at `value`; false: not what the option expects. */
+/* Turns the text of an option's value (NULL: a flag) into what is stored at `value`; false: not what the option
+ * expects. Called in the order of the command line. */
 typedef bool (*cli_value_parser)(const cli_option *option, const char *text, void *value);
 
 /* One option. Tables of these end with a record whose letter and name are both zero. */
@@ -17,7 +18,7 @@ struct cli_option {
     char letter;            /* 0: none */
     size_t offset;          /* of the value in the command's settings */
     cli_value_parser parse; /* NULL: a flag, a bool set to true */
-    const char *argument;   /* the value's name in the help; NULL for flags */
+    const char *argument;   /* the value's name in the help; NULL for flags, which take none */
     const char *expects;    /* "a whole number from 0 to 31": for the message about a wrong value */
     const char *help;
     double minimum, maximum;    /* for numbers */

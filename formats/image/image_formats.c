@@ -10,7 +10,13 @@ static const mt_image_format *const formats[] = {
 #ifdef MESHTOOL_PNG
     &mt_png_format,
 #endif
-    &mt_ppm_format, &mt_pgm_format, &mt_pam_format, &mt_pfm_format, NULL};
+#ifdef MESHTOOL_JPEG
+    &mt_jpeg_format,
+#endif
+#ifdef MESHTOOL_TIFF
+    &mt_tiff_format,
+#endif
+    &mt_ppm_format,  &mt_pgm_format, &mt_pbm_format, &mt_pam_format, &mt_pfm_format, NULL};
 
 const mt_image_format *const *mt_image_formats(void)
 {
@@ -52,16 +58,35 @@ const mt_image_format *mt_image_format_for_output(mt_context *context, const cha
     if (format) {
         return format;
     }
-    char known[64];
+    char known[128];
     list_extensions(known, sizeof known);
-    if (strcasecmp(extension, "png") == 0) {
-        mt_fail(context, MT_ERROR_ARGUMENT, "%s: this meshtool was built without PNG; it writes %s", path, known);
+    const char *left_out = mt_image_format_left_out(extension);
+    if (left_out) {
+        mt_fail(context, MT_ERROR_ARGUMENT, "%s: this meshtool was built without %s; it writes %s", path, left_out,
+                known);
     } else if (extension[0] == '\0') {
         mt_fail(context, MT_ERROR_ARGUMENT, "%s: the name has no extension that says which image format to write (%s)",
                 path, known);
     } else {
         mt_fail(context, MT_ERROR_ARGUMENT, "%s: no image format is called \"%s\"; meshtool writes %s", path, extension,
                 known);
+    }
+    return NULL;
+}
+
+const char *mt_image_format_left_out(const char *extension)
+{
+    static const struct {
+        const char *extension, *title;
+    } optional[] = {{"png", "PNG, with libspng"},
+                    {"jpg", "JPEG, with libjpeg"},
+                    {"jpeg", "JPEG, with libjpeg"},
+                    {"tiff", "TIFF, with libtiff"},
+                    {"tif", "TIFF, with libtiff"}};
+    for (size_t i = 0; i < sizeof optional / sizeof optional[0]; i++) {
+        if (strcasecmp(extension, optional[i].extension) == 0 && !mt_image_format_by_extension(extension)) {
+            return optional[i].title;
+        }
     }
     return NULL;
 }
@@ -84,4 +109,26 @@ mt_status mt_image_write_file(mt_context *context, const mt_image *image, const 
         return status;
     }
     return mt_output_commit(context, output);
+}
+
+mt_status mt_image_write_memory(mt_context *context, const mt_image *image, const mt_image_write_options *options,
+                                void **bytes, size_t *size)
+{
+    *bytes = NULL;
+    *size = 0;
+    const mt_image_format *format = mt_image_format_for_output(context, "-", options);
+    if (!format) {
+        return MT_ERROR_ARGUMENT;
+    }
+    mt_output *output = NULL;
+    mt_status status = mt_output_open_memory(context, &output);
+    if (status != MT_OK) {
+        return status;
+    }
+    status = format->write(context, image, options, output);
+    if (status != MT_OK) {
+        mt_output_abandon(context, output);
+        return status;
+    }
+    return mt_output_take(context, output, bytes, size);
 }

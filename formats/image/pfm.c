@@ -40,5 +40,9 @@ static mt_status write_pfm(mt_context *context, const mt_image *image, const mt_
 
 static const char *const extensions[] = {"pfm", NULL};
 
-const mt_image_format mt_pfm_format = {
-    .name = "pfm", .title = "Portable float map", .extensions = extensions, .write = write_pfm};
+const mt_image_format mt_pfm_format = {.name = "pfm",
+                                       .title = "Portable float map",
+                                       .extensions = extensions,
+                                       .sniff = mt_pfm_sniff,
+                                       .read = mt_pfm_read,
+                                       .write = write_pfm};

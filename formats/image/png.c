@@ -105,5 +105,7 @@ const mt_image_format mt_png_format = {.name = "png",
                                        .title = "Portable Network Graphics",
                                        .extensions = extensions,
                                        .holds_alpha = true,
+                                       .sniff = mt_png_sniff,
+                                       .read = mt_png_read,
                                        .write = write_png};
 #endif

@@ -1,4 +1,4 @@
-/* The netpbm family: PPM (colour), PGM (grey), PAM (either, with alpha), binary, 8 or 16 bits. */
+/* The netpbm family: PBM (1 bit), PPM (colour), PGM (grey), PAM (either, with alpha), binary, 8 or 16 bits. */
 #include "formats/image/image_format.h"
 #include "formats/stream/output.h"
 
@@ -74,16 +74,65 @@ static mt_status write_pam(mt_context *context, const mt_image *image, const mt_
     return status == MT_OK ? write_body(context, image, bits, output) : status;
 }
 
+/* Eight pixels a byte, 1 is black. */
+static mt_status write_bits(mt_context *context, void *user, const unsigned char *bytes, uint32_t row_count)
+{
+    const rows_writer *writer = (const rows_writer *)user;
+    mt_status status = MT_OK;
+    for (uint32_t row = 0; row < row_count && status == MT_OK; row++) {
+        for (size_t x = 0; x < writer->row_size && status == MT_OK; x += 8) {
+            unsigned char packed = 0;
+            for (size_t k = 0; k < 8 && x + k < writer->row_size; k++) {
+                packed |= (unsigned char)((bytes[x + k] < 128) << (7 - k));
+            }
+            status = mt_output_write(context, writer->output, &packed, 1);
+        }
+        bytes += writer->row_size;
+    }
+    return status;
+}
+
+static mt_status write_pbm(mt_context *context, const mt_image *image, const mt_image_write_options *options,
+                           mt_output *output)
+{
+    if (image->channel_count != 1) {
+        return mt_fail(context, MT_ERROR_UNSUPPORTED, "PBM holds grey pictures only: write .ppm, .pam or .png");
+    }
+    if (options && options->bits > 1) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "PBM holds 1 bit a pixel, not %u", options->bits);
+    }
+    rows_writer writer = {output, image->width};
+    mt_status status = mt_output_format(context, output, "P4\n%u %u\n", image->width, image->height);
+    return status == MT_OK ? mt_image_write_bands(context, image, 8, write_bits, &writer) : status;
+}
+
+static const char *const pbm_extensions[] = {"pbm", NULL};
 static const char *const ppm_extensions[] = {"ppm", "pnm", NULL};
 static const char *const pgm_extensions[] = {"pgm", NULL};
 static const char *const pam_extensions[] = {"pam", NULL};
 
-const mt_image_format mt_ppm_format = {
-    .name = "ppm", .title = "Portable pixmap", .extensions = ppm_extensions, .write = write_ppm};
-const mt_image_format mt_pgm_format = {
-    .name = "pgm", .title = "Portable graymap", .extensions = pgm_extensions, .write = write_pgm};
+const mt_image_format mt_ppm_format = {.name = "ppm",
+                                       .title = "Portable pixmap",
+                                       .extensions = ppm_extensions,
+                                       .sniff = mt_ppm_sniff,
+                                       .read = mt_netpbm_read,
+                                       .write = write_ppm};
+const mt_image_format mt_pgm_format = {.name = "pgm",
+                                       .title = "Portable graymap",
+                                       .extensions = pgm_extensions,
+                                       .sniff = mt_pgm_sniff,
+                                       .read = mt_netpbm_read,
+                                       .write = write_pgm};
 const mt_image_format mt_pam_format = {.name = "pam",
                                        .title = "Portable arbitrary map",
                                        .extensions = pam_extensions,
                                        .holds_alpha = true,
+                                       .sniff = mt_pam_sniff,
+                                       .read = mt_netpbm_read,
                                        .write = write_pam};
+const mt_image_format mt_pbm_format = {.name = "pbm",
+                                       .title = "Portable bitmap",
+                                       .extensions = pbm_extensions,
+                                       .sniff = mt_pbm_sniff,
+                                       .read = mt_netpbm_read,
+                                       .write = write_pbm};

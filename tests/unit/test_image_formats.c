@@ -13,7 +13,7 @@ static mt_image two_by_two(float *pixels, uint32_t channel_count)
     for (uint32_t i = 0; i < 4 * channel_count; i++) {
         pixels[i] = (float)i / 255.0F;
     }
-    return (mt_image){2, 2, channel_count, MT_COLOR_STORED, pixels};
+    return (mt_image){.width = 2, .height = 2, .channel_count = channel_count, .pixels = pixels};
 }
 
 static void expect(const mt_image *image, const char *format, unsigned bits, const char *header, unsigned body_scale)

@@ -16,9 +16,10 @@ typedef enum mt_color_space {
 
 typedef struct mt_image {
     uint32_t width, height;
-    uint32_t channel_count; /* 1 grey, 3 RGB, 4 RGB and alpha (not premultiplied) */
+    uint32_t channel_count; /* 1 grey, 3 RGB, 4 RGB and alpha */
     mt_color_space space;
-    float *pixels; /* width * height * channel_count */
+    float *pixels;         /* width * height * channel_count */
+    bool is_premultiplied; /* colours of 4 channels were multiplied by alpha; files are read so that they are not */
 } mt_image;
 
 /* A picture of zeros, MT_COLOR_STORED. MT_ERROR_ARGUMENT for a size of 0 or channels other than 1, 3, 4;

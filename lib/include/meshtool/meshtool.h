@@ -56,6 +56,9 @@
 #include <meshtool/subdivide.h>         /* Catmull-Clark */
 
 /* Pictures */
+#include <meshtool/alpha.h>   /* premultiplied colours, one picture over another */
+#include <meshtool/bayer.h>   /* colour filters of cameras, and colours out of them */
+#include <meshtool/color.h>   /* hue, saturation and value, luminance, linear light */
 #include <meshtool/image.h>   /* float raster */
 #include <meshtool/ink.h>     /* lines and letters on a picture */
 #include <meshtool/preview.h> /* a picture of any mesh */
@@ -63,7 +66,7 @@
 
 /* Files */
 #include <meshtool/file.h>         /* any bytes, written as all outputs are */
-#include <meshtool/image_format.h> /* PNG, PPM */
+#include <meshtool/image_format.h> /* PNG, JPEG, TIFF, PPM and kin, PFM */
 #include <meshtool/mesh_format.h>  /* OBJ, OFF, PLY, STL */
 #include <meshtool/scene_format.h> /* scenes in JSON */
 
