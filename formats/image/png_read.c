@@ -22,6 +22,7 @@ typedef struct png_reader {
     struct spng_trns transparency;
     bool has_palette, has_transparency;
     mt_status status; /* of the input */
+    bool is_cut;      /* it ended where more was wanted */
     mt_sample_layout layout;
     uint32_t channel_count; /* of the picture */
     size_t row_size;
@@ -33,6 +34,7 @@ static int read_stream(spng_ctx *png, void *user, void *bytes, size_t size)
     png_reader *reader = (png_reader *)user;
     size_t got = 0;
     reader->status = mt_input_read(reader->context, reader->input, bytes, size, &got);
+    reader->is_cut = reader->is_cut || got < size;
     return reader->status != MT_OK ? SPNG_IO_ERROR : got < size ? SPNG_IO_EOF : 0;
 }
 
@@ -150,6 +152,17 @@ static mt_status fill_row(png_reader *reader, const uint8_t *row, mt_image *imag
     return MT_OK;
 }
 
+/* libspng does not mind a last chunk that is cut short. */
+static mt_status read_end(png_reader *reader)
+{
+    if (reader->is_cut) {
+        return check(reader, SPNG_IO_EOF);
+    }
+    uint64_t rest = mt_input_size(reader->input) - mt_input_offset(reader->input);
+    mt_picture_warn_of_rest(reader->context, reader->input, rest);
+    return MT_OK;
+}
+
 /* Row by row; interlaced pictures at once, as their rows are ready at the end only. */
 static mt_status read_rows(png_reader *reader, mt_image *image)
 {
@@ -177,7 +190,10 @@ static mt_status read_rows(png_reader *reader, mt_image *image)
         }
     }
     mt_free(reader->context, rows);
-    return status == MT_OK ? check(reader, spng_decode_chunks(reader->png)) : status;
+    if (status == MT_OK) {
+        status = check(reader, spng_decode_chunks(reader->png));
+    }
+    return status == MT_OK ? read_end(reader) : status;
 }
 
 static mt_status read_picture(png_reader *reader, mt_image **out)
