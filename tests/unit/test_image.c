@@ -157,7 +157,7 @@ static void other_depths_are_refused(void **state)
     (void)state;
     mt_context *context = test_context();
     float pixel = 0;
-    mt_image image = {1, 1, 1, MT_COLOR_LINEAR, &pixel};
+    mt_image image = {.width = 1, .height = 1, .channel_count = 1, .space = MT_COLOR_LINEAR, .pixels = &pixel};
     mt_image_encoder *encoder = NULL;
     assert_int_equal(mt_image_encoder_create(context, &image, 12, &encoder), MT_ERROR_ARGUMENT);
     assert_null(encoder);
