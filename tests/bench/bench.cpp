@@ -114,9 +114,16 @@ void write_csv(const char *path)
 }
 
 const Case cases[] = {
-    {"reading", run_reading}, {"connectivity", run_connectivity},           {"one-ring", run_one_ring},
-    {"check", run_check},     {"self-intersection", run_self_intersection}, {"subdivision", run_subdivision},
-    {"preview", run_preview}, {"preview-process", run_preview_process},     {"rays", run_rays},
+    {"reading", run_reading},
+    {"connectivity", run_connectivity},
+    {"one-ring", run_one_ring},
+    {"normals", run_normals},
+    {"check", run_check},
+    {"self-intersection", run_self_intersection},
+    {"subdivision", run_subdivision},
+    {"preview", run_preview},
+    {"preview-process", run_preview_process},
+    {"rays", run_rays},
     {"closest", run_closest},
 };
 
@@ -203,9 +210,10 @@ int main(int argc, char **argv)
     }
     int result = bench::run_cases(argc - first, argv + first);
     if (result == 2) {
-        std::fprintf(stderr,
-                     "bench: no such case; there are reading, connectivity, one-ring, check, self-intersection, "
-                     "subdivision, preview, rays, closest\n");
+        std::fprintf(
+            stderr,
+            "bench: no such case; there are reading, connectivity, one-ring, normals, check, self-intersection, "
+            "subdivision, preview, rays, closest\n");
     }
     if (csv) {
         bench::write_csv(csv);

@@ -42,6 +42,7 @@ struct Case {
 void run_reading();
 void run_connectivity();
 void run_one_ring();
+void run_normals();
 void run_check();
 void run_self_intersection();
 void run_subdivision();
