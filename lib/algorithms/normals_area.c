@@ -1,23 +1,34 @@
 /* Vertex normals by area: one pass over the faces adds each area vector at the face's vertices, then each sum is
- * brought to length 1. Several threads own a range of vertices each and all pass over the faces, adding what falls into
- * their range: so every sum runs over faces in ascending order, whoever runs it.
+ * brought to length 1. Several threads own a range of vertices each and add in it what the faces bring, in ascending
+ * order: so sums do not depend on who runs them. Blocks of faces know between which vertices they lie: most lie outside
+ * a range, and are passed over, or inside, where no vertex needs to be asked for.
  *
- * Cost: linear; three doubles a vertex beside the result, none when that is in doubles. Random order of faces and
- * vertices costs cache misses; positions and sums are asked for some faces ahead. */
+ * Cost: linear; three doubles a vertex beside the result, none when that is in doubles. Faces in a random order cost
+ * cache misses, so that positions and sums are asked for some faces ahead; then every block lies in every range, and
+ * one thread does all. */
 #include "lib/algorithms/normals.h"
 #include "lib/algorithms/normals_face.h"
 
 #include <string.h>
 
-/* Threads that pass over all faces; with more of them passing would cost more than adding. */
-#define RANGES_MAXIMUM 8
+#define RANGES_MAXIMUM 64
+#define FACE_BLOCK 2048
 
 /* Faces that memory is given to fetch what they need. */
 #define LOOK_AHEAD 16
 
+/* A block whose vertices are spread farther than so many numbers misses caches: what it needs is asked for ahead. */
+#define WIDE_BLOCK 32768
+
+/* The lowest and the highest vertex of a block of faces. */
+typedef struct face_block {
+    mt_index low, high;
+} face_block;
+
 typedef struct area_job {
     mt_normals_job *job;
     double *sums; /* 3 a vertex */
+    face_block *blocks;
     mt_index range_count;
     bool out_of_range[RANGES_MAXIMUM]; /* per range: an area that cannot be summed as it is */
 } area_job;
@@ -36,52 +47,55 @@ static bool find_area_vector(const mt_mesh *mesh, mt_index face, mt_vec3 *area_v
     return mt_vector_is_zero(scaled.vector) || mt_is_plain(*area_vector);
 }
 
-/* One range of vertices; `whole`: it is all of them. */
-typedef struct range {
+/* Faces of a block, and the range of vertices that they are added to. */
+typedef struct block_task {
+    const mt_mesh *mesh;
+    double *sums;
+    mt_index face, face_end;
     mt_index begin, count;
-    bool whole, is_double;
-    mt_index sides; /* 0: as the mesh says */
-} range;
+} block_task;
 
-MT_INLINE bool touches(const range *own, const mt_index *vertices, mt_index sides)
+MT_INLINE void fetch_face(const block_task *task, const mt_index *vertices, mt_index sides, bool is_double)
+{
+    size_t size = is_double ? 3 * sizeof(double) : 3 * sizeof(float);
+    for (mt_index i = 0; i < sides; i++) {
+        __builtin_prefetch((const char *)task->mesh->positions + vertices[i] * size);
+        __builtin_prefetch(task->sums + 3 * (size_t)vertices[i], 1);
+    }
+}
+
+MT_INLINE bool touches(const block_task *task, const mt_index *vertices, mt_index sides)
 {
     for (mt_index i = 0; i < sides; i++) {
-        if (vertices[i] - own->begin < own->count) {
+        if (vertices[i] - task->begin < task->count) {
             return true;
         }
     }
     return false;
 }
 
-MT_INLINE void fetch_face(const mt_mesh *mesh, const double *sums, const range *own, const mt_index *vertices)
+/* `inside`: all vertices of the block lie in the range, and near each other. size: sides of every face, or 0. */
+MT_INLINE bool add_faces(const block_task *task, mt_index size, bool is_double, bool inside)
 {
-    size_t size = own->is_double ? 3 * sizeof(double) : 3 * sizeof(float);
-    for (mt_index i = 0; i < own->sides; i++) {
-        __builtin_prefetch((const char *)mesh->positions + vertices[i] * size);
-        __builtin_prefetch(sums + 3 * (size_t)vertices[i], 1);
-    }
-}
-
-MT_INLINE bool add_faces(const mt_mesh *mesh, double *sums, const range *own)
-{
-    bool fits = true;
+    const mt_mesh *mesh = task->mesh;
+    double *sums = task->sums;
     mt_index ahead = mesh->face_count > LOOK_AHEAD ? mesh->face_count - LOOK_AHEAD : 0;
-    for (mt_index face = 0; face < mesh->face_count; face++) {
-        mt_index begin = own->sides ? own->sides * face : mt_mesh_face_begin(mesh, face);
-        mt_index sides = own->sides ? own->sides : mt_mesh_face_sides(mesh, face);
-        const mt_index *vertices = mesh->corner_vertices + begin;
-        if (own->sides && face < ahead) {
-            fetch_face(mesh, sums, own, vertices + (size_t)own->sides * LOOK_AHEAD);
+    bool fits = true;
+    for (mt_index face = task->face; face < task->face_end; face++) {
+        const mt_index *vertices = mesh->corner_vertices + (size ? size * face : mt_mesh_face_begin(mesh, face));
+        mt_index sides = size ? size : mt_mesh_face_sides(mesh, face);
+        if (!inside && size && face < ahead) {
+            fetch_face(task, vertices + (size_t)size * LOOK_AHEAD, size, is_double);
         }
-        if (!own->whole && !touches(own, vertices, sides)) {
+        if (!inside && !touches(task, vertices, sides)) {
             continue;
         }
         mt_vec3 n;
-        if (!mt_plain_area_vector(mesh->positions, own->is_double, vertices, sides, &n)) {
+        if (!mt_plain_area_vector(mesh->positions, is_double, vertices, sides, &n)) {
             fits = find_area_vector(mesh, face, &n) && fits;
         }
         for (mt_index i = 0; i < sides; i++) {
-            if (own->whole || vertices[i] - own->begin < own->count) {
+            if (inside || vertices[i] - task->begin < task->count) {
                 add_at(sums, vertices[i], n);
             }
         }
@@ -89,31 +103,22 @@ MT_INLINE bool add_faces(const mt_mesh *mesh, double *sums, const range *own)
     return fits;
 }
 
-static bool add_triangles_whole(const mt_mesh *mesh, double *sums, bool is_double)
+static bool add_block(const block_task *task, bool inside)
 {
-    range own = {0, mesh->vertex_count, true, true, 3};
+    const mt_mesh *mesh = task->mesh;
+    bool is_double = mesh->position_type == MT_F64;
+    if (mesh->face_offsets || mesh->face_size != 3) {
+        return add_faces(task, 0, is_double, inside);
+    }
     if (is_double) {
-        return add_faces(mesh, sums, &own);
+        return inside ? add_faces(task, 3, true, true) : add_faces(task, 3, true, false);
     }
-    own.is_double = false;
-    return add_faces(mesh, sums, &own);
+    return inside ? add_faces(task, 3, false, true) : add_faces(task, 3, false, false);
 }
 
-static bool add_triangles(const mt_mesh *mesh, double *sums, mt_index begin, mt_index count)
+static mt_index block_end(const mt_mesh *mesh, mt_index begin)
 {
-    if (mesh->position_type == MT_F64) {
-        range own = {begin, count, false, true, 3};
-        return add_faces(mesh, sums, &own);
-    }
-    range own = {begin, count, false, false, 3};
-    return add_faces(mesh, sums, &own);
-}
-
-static bool add_polygons(const mt_mesh *mesh, double *sums, mt_index begin, mt_index count)
-{
-    bool whole = count == mesh->vertex_count;
-    range own = {begin, count, whole, mesh->position_type == MT_F64, 0};
-    return add_faces(mesh, sums, &own);
+    return mesh->face_count - begin < FACE_BLOCK ? mesh->face_count : begin + FACE_BLOCK;
 }
 
 static void add_range(void *user, uint64_t number, uint64_t end)
@@ -124,15 +129,56 @@ static void add_range(void *user, uint64_t number, uint64_t end)
     uint64_t begin = (uint64_t)mesh->vertex_count * number / area->range_count;
     uint64_t count = (uint64_t)mesh->vertex_count * (number + 1) / area->range_count - begin;
     memset(area->sums + 3 * begin, 0, 3 * count * sizeof(double));
-    bool triangles = !mesh->face_offsets && mesh->face_size == 3, fits;
-    if (triangles && area->range_count == 1) {
-        fits = add_triangles_whole(mesh, area->sums, mesh->position_type == MT_F64);
-    } else if (triangles) {
-        fits = add_triangles(mesh, area->sums, (mt_index)begin, (mt_index)count);
-    } else {
-        fits = add_polygons(mesh, area->sums, (mt_index)begin, (mt_index)count);
+    block_task task = {mesh, area->sums, 0, 0, (mt_index)begin, (mt_index)count};
+    bool fits = true;
+    for (const face_block *block = area->blocks; task.face < mesh->face_count; block++, task.face = task.face_end) {
+        task.face_end = block_end(mesh, task.face);
+        bool apart = block->high < begin || block->low >= begin + count;
+        bool inside = block->low >= begin && block->high < begin + count && block->high - block->low < WIDE_BLOCK;
+        fits = (apart || add_block(&task, inside)) && fits;
     }
     area->out_of_range[number] = !fits;
+}
+
+static void find_block(void *user, uint64_t begin, uint64_t end)
+{
+    const area_job *area = user;
+    const mt_mesh *mesh = area->job->mesh;
+    mt_index corner_end = mt_mesh_face_end(mesh, (mt_index)end - 1);
+    face_block block = {MT_NONE, 0};
+    for (mt_index corner = mt_mesh_face_begin(mesh, (mt_index)begin); corner < corner_end; corner++) {
+        mt_index vertex = mesh->corner_vertices[corner];
+        block.low = vertex < block.low ? vertex : block.low;
+        block.high = vertex > block.high ? vertex : block.high;
+    }
+    area->blocks[begin / FACE_BLOCK] = block;
+}
+
+/* A range for each thread, unless that many would do the same work several times. */
+static mt_index choose_range_count(const area_job *area, uint64_t block_count)
+{
+    unsigned threads = mt_context_thread_count(area->job->context);
+    mt_index ranges = threads < RANGES_MAXIMUM ? threads : RANGES_MAXIMUM;
+    uint64_t range_size = area->job->mesh->vertex_count / ranges, spread = 0;
+    for (uint64_t i = 0; i < block_count; i++) {
+        spread += area->blocks[i].high - area->blocks[i].low > range_size / 2;
+    }
+    return spread > block_count / 2 ? 1 : ranges;
+}
+
+/* Vertices whose lengths are found together, so that roots and quotients are taken several at once. */
+#define UNIT_GROUP 256
+
+/* Stores 1 / length of each sum, of no use where that is not plain. */
+static MT_CLONES void find_scales(const double *sums, mt_index count, double *scales)
+{
+    for (mt_index i = 0; i < count; i++) {
+        mt_vec3 sum = mt_vec3_make(sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]);
+        scales[i] = mt_symmetric_dot(sum, sum);
+    }
+    for (mt_index i = 0; i < count; i++) {
+        scales[i] = 1 / sqrt(scales[i]);
+    }
 }
 
 static void make_units(void *user, uint64_t begin, uint64_t end)
@@ -140,11 +186,17 @@ static void make_units(void *user, uint64_t begin, uint64_t end)
     const area_job *area = user;
     mt_attribute *values = area->job->values;
     mt_index undefined = 0;
-    for (uint64_t vertex = begin; vertex < end; vertex++) {
-        const double *sum = area->sums + 3 * vertex;
-        mt_vec3 n = mt_unit_vector(mt_vec3_make(sum[0], sum[1], sum[2]));
-        mt_store_normal(values->values, values->type, vertex, n);
-        undefined += mt_vector_is_zero(n);
+    double scales[UNIT_GROUP];
+    for (uint64_t first = begin; first < end; first += UNIT_GROUP) {
+        mt_index count = end - first < UNIT_GROUP ? (mt_index)(end - first) : UNIT_GROUP;
+        const double *sums = area->sums + 3 * first;
+        find_scales(sums, count, scales);
+        for (mt_index i = 0; i < count; i++) {
+            mt_vec3 sum = mt_vec3_make(sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]);
+            mt_vec3 n = mt_is_plain(sum) ? mt_vec3_scale(sum, scales[i]) : mt_unit_vector(sum);
+            mt_store_normal(values->values, values->type, first + i, n);
+            undefined += mt_vector_is_zero(n);
+        }
     }
     mt_count_undefined(area->job, undefined);
 }
@@ -152,31 +204,31 @@ static void make_units(void *user, uint64_t begin, uint64_t end)
 static void sum_and_make_units(area_job *area, bool *done)
 {
     mt_context *context = area->job->context;
-    mt_index vertex_count = area->job->mesh->vertex_count;
+    const mt_mesh *mesh = area->job->mesh;
+    mt_parallel_for(context, mesh->face_count, FACE_BLOCK, find_block, area);
+    area->range_count = choose_range_count(area, ((uint64_t)mesh->face_count + FACE_BLOCK - 1) / FACE_BLOCK);
     mt_parallel_for(context, area->range_count, 1, add_range, area);
     *done = true;
     for (mt_index i = 0; i < area->range_count; i++) {
         *done = *done && !area->out_of_range[i];
     }
     if (*done) {
-        mt_parallel_for(context, vertex_count, MT_NORMALS_GRAIN, make_units, area);
+        mt_parallel_for(context, mesh->vertex_count, MT_NORMALS_GRAIN, make_units, area);
     }
 }
 
 mt_status mt_normals_by_area(mt_normals_job *job, bool *done)
 {
-    unsigned threads = mt_context_thread_count(job->context);
-    area_job area = {.job = job, .range_count = threads < RANGES_MAXIMUM ? threads : RANGES_MAXIMUM};
-    if (job->values->type == MT_F64) {
-        area.sums = job->values->values;
+    area_job area = {.job = job};
+    bool in_place = job->values->type == MT_F64;
+    area.blocks = mt_allocate_array(job->context, job->mesh->face_count / FACE_BLOCK + 1, sizeof *area.blocks);
+    area.sums =
+        in_place ? job->values->values : mt_allocate_array(job->context, job->mesh->vertex_count, 3 * sizeof(double));
+    mt_status status = area.blocks && area.sums ? MT_OK : mt_context_error(job->context)->status;
+    if (status == MT_OK) {
         sum_and_make_units(&area, done);
-        return MT_OK;
     }
-    area.sums = mt_allocate_array(job->context, job->mesh->vertex_count, 3 * sizeof(double));
-    if (!area.sums) {
-        return mt_context_error(job->context)->status;
-    }
-    sum_and_make_units(&area, done);
-    mt_free(job->context, area.sums);
-    return MT_OK;
+    mt_free(job->context, area.blocks);
+    mt_free(job->context, in_place ? NULL : area.sums);
+    return status;
 }
