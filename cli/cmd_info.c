@@ -3,37 +3,25 @@
 #include "line.h"
 #include "progress.h"
 #include "quantity.h"
+#include "sizes.h"
 
 #include <inttypes.h>
 
 typedef struct info_settings {
     cli_common common;
+    bool measure;
 } info_settings;
 
-/* A way to store a mesh: how many numbers it takes (the units of textbooks), and bytes. */
-typedef struct info_size {
-    const char *key, *words;
-    uint64_t units, bytes;
-} info_size;
-
-#define SIZE_COUNT 3
+static const cli_option options[] = {
+    {.name = "measure",
+     .offset = offsetof(info_settings, measure),
+     .help = "also build each structure and write each format, in memory, and show what they really take"},
+    {0},
+};
 
 static uint64_t triangle_count(const mt_mesh *mesh)
 {
     return (uint64_t)mesh->corner_count - 2 * (uint64_t)mesh->face_count;
-}
-
-/* Coordinates take the mesh's precision, indices 4 bytes. */
-static void measure(const mt_mesh *mesh, info_size sizes[SIZE_COUNT])
-{
-    uint64_t triangles = triangle_count(mesh), vertices = mesh->vertex_count, corners = mesh->corner_count;
-    uint64_t real = mt_type_size(mesh->position_type), index = sizeof(mt_index);
-    uint64_t offsets = mesh->face_offsets ? (uint64_t)mesh->face_count + 1 : 0;
-    sizes[0] = (info_size){"separate_triangles", "separate triangles", 9 * triangles, 9 * triangles * real};
-    sizes[1] = (info_size){"indexed_mesh", "indexed triangles", 3 * vertices + 3 * triangles,
-                           3 * vertices * real + 3 * triangles * index};
-    sizes[2] = (info_size){"indexed_polygons", "indexed polygons", 3 * vertices + corners + offsets,
-                           3 * vertices * real + (corners + offsets) * index};
 }
 
 static const char *type_name(mt_type type)
@@ -125,21 +113,7 @@ static json_t *bounds_json(const mt_mesh *mesh)
     return object;
 }
 
-static json_t *sizes_json(const mt_mesh *mesh)
-{
-    info_size sizes[SIZE_COUNT];
-    measure(mesh, sizes);
-    json_t *object = cli_json_object();
-    for (size_t i = 0; i < SIZE_COUNT; i++) {
-        json_t *size = cli_json_object();
-        cli_json_set(size, "units", cli_json_integer((int64_t)sizes[i].units));
-        cli_json_set(size, "bytes", cli_json_integer((int64_t)sizes[i].bytes));
-        cli_json_set(object, sizes[i].key, size);
-    }
-    return object;
-}
-
-static void print_json(const char *file, const mt_mesh_format *format, const mt_mesh *mesh)
+static void print_json(const char *file, const mt_mesh_format *format, const mt_mesh *mesh, const cli_sizes *sizes)
 {
     json_t *object = cli_json_object(), *attributes = cli_json_array();
     visit_parts(mesh, add_part_json, attributes);
@@ -150,7 +124,7 @@ static void print_json(const char *file, const mt_mesh_format *format, const mt_
     cli_json_set(object, "triangles", cli_json_integer((int64_t)triangle_count(mesh)));
     cli_json_set(object, "bounds", bounds_json(mesh));
     cli_json_set(object, "attributes", attributes);
-    cli_json_set(object, "sizes", sizes_json(mesh));
+    cli_json_set(object, "sizes", cli_sizes_json(sizes));
     cli_json_print_line(object);
     json_decref(object);
 }
@@ -219,7 +193,7 @@ static void print_bounds(const mt_mesh *mesh)
     }
 }
 
-static void print_text(const char *file, const mt_mesh_format *format, const mt_mesh *mesh)
+static void print_text(const char *file, const mt_mesh_format *format, const mt_mesh *mesh, const cli_sizes *sizes)
 {
     printf("%s: %s%s\n", file, format->title, mesh->welded ? ", corners welded where equal" : "");
     print_faces(mesh);
@@ -244,14 +218,7 @@ static void print_text(const char *file, const mt_mesh_format *format, const mt_
         printf("Creases: %s, %s\n", cli_counted(mesh->crease_count, "sharp edge").text,
                cli_counted(mesh->sharp_vertex_count, "sharp vertex").text);
     }
-    info_size sizes[SIZE_COUNT];
-    measure(mesh, sizes);
-    puts("Positions and faces take, by formula:");
-    size_t told = triangle_count(mesh) == mesh->face_count ? SIZE_COUNT - 1 : SIZE_COUNT; /* polygons are triangles */
-    for (size_t i = 0; i < told; i++) {
-        printf("  %-20s %15s numbers %12s\n", sizes[i].words, cli_count((int64_t)sizes[i].units).text,
-               cli_bytes(sizes[i].bytes).text);
-    }
+    cli_sizes_print(sizes);
 }
 
 static cli_exit show(const cli_job *job, const char *file)
@@ -262,15 +229,17 @@ static cli_exit show(const cli_job *job, const char *file)
     if (code != CLI_EXIT_DONE) {
         return code;
     }
-    if (job->common->json) {
-        print_json(file, format, mesh);
-    } else {
+    cli_sizes sizes;
+    code = cli_sizes_find(job, file, mesh, ((const info_settings *)job->settings)->measure, &sizes);
+    if (code == CLI_EXIT_DONE && job->common->json) {
+        print_json(file, format, mesh, &sizes);
+    } else if (code == CLI_EXIT_DONE) {
         cli_progress_clear();
         fputs(file == job->operands[0] ? "" : "\n", stdout);
-        print_text(file, format, mesh);
+        print_text(file, format, mesh, &sizes);
     }
     mt_mesh_destroy(job->context, mesh);
-    return CLI_EXIT_DONE;
+    return code;
 }
 
 static cli_exit run(const cli_job *job)
@@ -283,11 +252,17 @@ const cli_command cli_info_command = {
     .name = "info",
     .usage = "FILE...",
     .summary = "Show counts, bounds, attributes and sizes of meshes",
-    .description =
-        "Sizes are by formula: separate triangles take 9 numbers a triangle, an indexed mesh 3 a vertex and 3 a "
-        "triangle; coordinates have the mesh's precision, indices 4 bytes.",
+    .description = "Sizes are of positions and faces, by formula: separate triangles take 9 numbers a triangle, an "
+                   "indexed mesh 3 a "
+                   "vertex and 3 a triangle; coordinates have the mesh's precision, indices 4 bytes. Edges are half "
+                   "the corners, as "
+                   "in a closed mesh; structures of triangles take those that n-gons are cut into. Nothing is built "
+                   "for it. Formats "
+                   "are without their headers, and text without a formula.",
     .examples = "  meshtool info cow.obj\n"
-                "  meshtool info *.ply --json\n",
+                "  meshtool info *.ply --json\n"
+                "  meshtool info cow.obj --measure\n",
+    .options = options,
     .groups = CLI_GROUP_READ | CLI_GROUP_PRECISION | CLI_GROUP_WORK | CLI_GROUP_EVERY,
     .settings_size = sizeof(info_settings),
     .operand_minimum = 1,

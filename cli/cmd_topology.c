@@ -3,6 +3,7 @@
 #include "files.h"
 #include "message.h"
 #include "quantity.h"
+#include "sizes.h"
 
 #include <meshtool/split_non_manifold.h>
 
@@ -39,32 +40,14 @@ typedef struct topology_view {
     mt_index file_vertex_count;
 } topology_view;
 
-/* A way to store positions and faces: how many numbers it takes, as textbooks count, and bytes. */
-typedef struct storage_row {
-    const char *key, *words, *formula;
-    uint64_t coordinates, indices;
-} storage_row;
+/* The ways to store positions and faces that are set side by side. */
+static const mt_storage_kind storages[] = {MT_STORAGE_SEPARATE_TRIANGLES, MT_STORAGE_INDEXED_MESH,
+                                           MT_STORAGE_TRIANGLE_NEIGHBOR, MT_STORAGE_WINGED_EDGE, MT_STORAGE_HALF_EDGE};
+#define STORAGE_COUNT (sizeof storages / sizeof *storages)
 
-#define STORAGE_COUNT 5
-
-static void list_storage(const topology_view *view, storage_row rows[STORAGE_COUNT])
+static mt_storage storage_of(const topology_view *view, size_t i)
 {
-    uint64_t vertices = view->mesh->vertex_count, faces = view->mesh->face_count;
-    uint64_t triangles = view->mesh->corner_count - 2 * faces;
-    uint64_t edges = view->kind->edge_count(view->structure);
-    rows[0] = (storage_row){"separate_triangles", "separate triangles", "9 n_t", 9 * triangles, 0};
-    rows[1] = (storage_row){"indexed_mesh", "indexed triangles", "3 n_v + 3 n_t", 3 * vertices, 3 * triangles};
-    rows[2] = (storage_row){"triangle_neighbor", "triangle neighbors", "4 n_v + 6 n_t", 3 * vertices,
-                            vertices + 6 * triangles};
-    rows[3] =
-        (storage_row){"winged_edge", "winged edges", "4 n_v + 8 n_e + n_f", 3 * vertices, vertices + faces + 8 * edges};
-    rows[4] =
-        (storage_row){"half_edge", "half-edges", "4 n_v + 6 n_e + n_f", 3 * vertices, vertices + faces + 6 * edges};
-}
-
-static uint64_t storage_bytes(const mt_mesh *mesh, const storage_row *row)
-{
-    return row->coordinates * mt_type_size(mesh->position_type) + row->indices * sizeof(mt_index);
+    return mt_storage_by_formula(view->mesh, storages[i], view->kind->edge_count(view->structure));
 }
 
 /* JSON: all rows, printed one by one, since a tree of them would take many times the structure's memory. */
@@ -112,13 +95,9 @@ static json_t *bytes_json(const topology_view *view)
     for (size_t i = 0; i < CLI_CONNECTIVITY_TABLES && view->kind->tables[i].key; i++) {
         cli_json_set(elements, view->kind->tables[i].key, cli_json_integer(view->kind->tables[i].bytes));
     }
-    storage_row rows[STORAGE_COUNT];
-    list_storage(view, rows);
     for (size_t i = 0; i < STORAGE_COUNT; i++) {
-        json_t *row = cli_json_object();
-        cli_json_set(row, "units", cli_json_integer((int64_t)(rows[i].coordinates + rows[i].indices)));
-        cli_json_set(row, "bytes", cli_json_integer((int64_t)storage_bytes(view->mesh, &rows[i])));
-        cli_json_set(storage, rows[i].key, row);
+        mt_storage row = storage_of(view, i);
+        cli_json_set(storage, row.key, cli_size_json(mt_storage_units(&row), mt_storage_bytes(view->mesh, &row)));
     }
     cli_json_set(object, "structure", cli_json_integer((int64_t)view->kind->size(view->structure)));
     cli_json_set(object, "per_element", elements);
@@ -188,14 +167,13 @@ static void print_text_table(const topology_view *view, const cli_table *table)
 
 static void print_storage(const topology_view *view)
 {
-    storage_row rows[STORAGE_COUNT];
-    list_storage(view, rows);
     double triangles = (double)view->mesh->corner_count - 2 * (double)view->mesh->face_count;
     puts("\nPositions and faces take, by formula:");
     for (size_t i = 0; i < STORAGE_COUNT; i++) {
-        uint64_t bytes = storage_bytes(view->mesh, &rows[i]);
-        printf("  %-18s  %-19s %15s numbers %12s", rows[i].words, rows[i].formula,
-               cli_count((int64_t)(rows[i].coordinates + rows[i].indices)).text, cli_bytes(bytes).text);
+        mt_storage row = storage_of(view, i);
+        uint64_t bytes = mt_storage_bytes(view->mesh, &row);
+        printf("  %-18s  %-19s %15s numbers %12s", row.words, row.formula,
+               cli_count((int64_t)mt_storage_units(&row)).text, cli_bytes(bytes).text);
         if (triangles > 0) {
             printf("  %6.1f bytes a triangle", (double)bytes / triangles);
         }

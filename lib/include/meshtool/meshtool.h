@@ -53,6 +53,7 @@
 #include <meshtool/repair.h>            /* mending, with an account */
 #include <meshtool/self_intersection.h> /* faces that meet where they should not, decided exactly */
 #include <meshtool/signed_distance.h>   /* negative inside */
+#include <meshtool/storage.h>           /* bytes of each way to store a mesh */
 #include <meshtool/subdivide.h>         /* Catmull-Clark */
 
 /* Pictures */
