@@ -128,10 +128,9 @@ static const cli_option options[] = {
      .offset = SETTING(coloring),
      .parse = preview_parse_coloring,
      .argument = "WHAT",
-     .expects = "none, normal, face, component, defect, quality, depth or orientation (strip comes with the strips "
-                "command)",
+     .expects = "none, normal, face, component, defect, quality, depth, orientation or strip",
      .help = "none, normal, face, component, defect, quality (radius ratio: red is bad, blue good), depth, orientation "
-             "(fronts blue, backs red); the mesh's colours"},
+             "(fronts blue, backs red), strip; the mesh's colours"},
     {.name = "background",
      .offset = SETTING(background),
      .parse = parse_background,

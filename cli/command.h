@@ -62,6 +62,7 @@ extern const cli_command cli_normals_command;
 extern const cli_command cli_preview_command;
 extern const cli_command cli_render_command;
 extern const cli_command cli_repair_command;
+extern const cli_command cli_strips_command;
 extern const cli_command cli_subdivide_command;
 extern const cli_command cli_topology_command;
 extern const cli_command cli_tradeoff_command;

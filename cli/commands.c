@@ -7,10 +7,23 @@
 #include <unistd.h>
 
 const cli_command *const cli_commands[] = {
-    &cli_check_manifold_command, &cli_repair_command,  &cli_info_command,      &cli_topology_command,
-    &cli_preview_command,        &cli_render_command,  &cli_subdivide_command, &cli_normals_command,
-    &cli_distance_command,       &cli_convert_command, &cli_image_command,     &cli_generate_command,
-    &cli_tradeoff_command,       &cli_formats_command, &cli_help_command,      NULL,
+    &cli_check_manifold_command,
+    &cli_repair_command,
+    &cli_info_command,
+    &cli_topology_command,
+    &cli_preview_command,
+    &cli_render_command,
+    &cli_subdivide_command,
+    &cli_normals_command,
+    &cli_strips_command,
+    &cli_distance_command,
+    &cli_convert_command,
+    &cli_image_command,
+    &cli_generate_command,
+    &cli_tradeoff_command,
+    &cli_formats_command,
+    &cli_help_command,
+    NULL,
 };
 
 const cli_command *cli_find_command(const char *name)

@@ -2,10 +2,9 @@
 #include "distance.h"
 #include "files.h"
 #include "message.h"
+#include "paint.h"
 #include "progress.h"
 #include "quantity.h"
-
-#include <meshtool/preview.h>
 
 #include <string.h>
 
@@ -35,58 +34,20 @@ static void color_of(double distance, double largest, bool is_signed, unsigned c
     }
 }
 
-static bool is_picture(const cli_job *job, const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    const char *extension = job->common->to ? cli_extension(job->common->to) : dot ? dot + 1 : "";
-    return mt_image_format_by_extension(extension) != NULL;
-}
-
 cli_exit cli_distance_check_paint(const cli_job *job, const char *path)
 {
-    if (is_picture(job, path)) {
-        const mt_image_format *picture = NULL;
-        return cli_check_image_output(job, path, &picture);
-    }
-    const mt_mesh_format *format = NULL;
-    cli_exit code = cli_check_mesh_output(job, path, &format);
-    if (code == CLI_EXIT_DONE && !(format->abilities & MT_HOLDS_VERTEX_COLORS)) {
-        return cli_wrong_usage(job->command, "--paint: %s files hold no colours of vertices; write a ply or a png",
-                               format->name);
-    }
-    return code;
+    return cli_paint_check_output(job, path, MT_HOLDS_VERTEX_COLORS, "vertices");
 }
 
 static mt_status paint_copy(mt_context *context, mt_mesh *copy, const double *distances, double largest, bool is_signed)
 {
-    for (mt_index i = copy->attribute_count; i-- > 0;) {
-        if (copy->attributes[i].semantic == MT_SEMANTIC_COLOR) {
-            mt_mesh_remove_attribute(context, copy, i);
-        }
-    }
-    mt_attribute_layout layout = {.name = "color",
-                                  .semantic = MT_SEMANTIC_COLOR,
-                                  .domain = MT_DOMAIN_VERTEX,
-                                  .type = MT_U8,
-                                  .component_count = 3,
-                                  .value_count = copy->vertex_count};
-    mt_attribute *attribute = NULL;
-    mt_status status = mt_mesh_add_attribute(context, copy, &layout, &attribute);
+    unsigned char *colors = NULL;
+    cli_paint_clear(context, copy);
+    mt_status status = cli_paint_add(context, copy, MT_DOMAIN_VERTEX, &colors);
     for (mt_index i = 0; status == MT_OK && i < copy->vertex_count; i++) {
-        color_of(distances[i], largest, is_signed, (unsigned char *)attribute->values + 3 * (size_t)i);
+        color_of(distances[i], largest, is_signed, colors + 3 * (size_t)i);
     }
     return status;
-}
-
-static cli_exit write_picture(const cli_job *job, const mt_mesh *mesh, const char *path)
-{
-    mt_image *image = NULL;
-    if (mt_preview(job->context, mesh, NULL, &image) != MT_OK) {
-        return cli_report_failure(job, job->operands[0]);
-    }
-    cli_exit code = cli_write_image(job, image, path);
-    mt_image_destroy(job->context, image);
-    return code;
 }
 
 static void say_legend(const cli_job *job, double largest, bool is_signed, const char *path)
@@ -110,12 +71,7 @@ cli_exit cli_distance_paint(const cli_job *job, const mt_mesh *mesh, const doubl
     if (status == MT_OK) {
         status = paint_copy(job->context, copy, distances, largest, settings->is_signed);
     }
-    cli_exit code = CLI_EXIT_DONE;
-    if (status != MT_OK) {
-        code = cli_report_failure(job, job->operands[0]);
-    } else {
-        code = is_picture(job, path) ? write_picture(job, copy, path) : cli_write_mesh(job, copy, path, NULL);
-    }
+    cli_exit code = status == MT_OK ? cli_paint_write(job, copy, path) : cli_report_failure(job, job->operands[0]);
     if (code == CLI_EXIT_DONE) {
         say_legend(job, largest, settings->is_signed, path);
     }

@@ -18,10 +18,11 @@ typedef struct preview_point {
     double at[3];
 } preview_point;
 
-/* What --color-by asks for: one of the library's colourings, or the defects that the manifold check finds. */
+/* What --color-by asks for: one of the library's colourings, or what other parts of it find: the defects of the
+ * manifold check, or strips. */
 typedef struct preview_coloring {
     mt_coloring kind;
-    bool defects;
+    bool defects, strips;
 } preview_coloring;
 
 typedef struct preview_settings {

@@ -2,6 +2,7 @@
 #include "preview.h"
 #include "profile.h"
 #include "quantity.h"
+#include "strip_paint.h"
 
 #include <string.h>
 
@@ -9,10 +10,15 @@ static const struct {
     const char *name;
     preview_coloring value;
 } colorings[] = {
-    {"none", {MT_COLORING_NONE, false}},   {"normal", {MT_COLORING_NORMAL, false}},
-    {"face", {MT_COLORING_FACE, false}},   {"component", {MT_COLORING_COMPONENT, false}},
-    {"defect", {MT_COLORING_NONE, true}},  {"quality", {MT_COLORING_QUALITY, false}},
-    {"depth", {MT_COLORING_DEPTH, false}}, {"orientation", {MT_COLORING_ORIENTATION, false}},
+    {"none", {.kind = MT_COLORING_NONE}},
+    {"normal", {.kind = MT_COLORING_NORMAL}},
+    {"face", {.kind = MT_COLORING_FACE}},
+    {"component", {.kind = MT_COLORING_COMPONENT}},
+    {"defect", {.kind = MT_COLORING_NONE, .defects = true}},
+    {"quality", {.kind = MT_COLORING_QUALITY}},
+    {"depth", {.kind = MT_COLORING_DEPTH}},
+    {"orientation", {.kind = MT_COLORING_ORIENTATION}},
+    {"strip", {.kind = MT_COLORING_NONE, .strips = true}},
 };
 
 static const struct {
@@ -227,9 +233,25 @@ static cli_exit draw_defects(const cli_job *job, const mt_mesh *mesh, const mt_m
     return code;
 }
 
+/* Each strip in a colour of its own. */
+static cli_exit draw_strips(const cli_job *job, const mt_mesh *mesh, const mt_mesh_format *read, mt_preview_options how)
+{
+    unsigned char *colors = NULL;
+    if (cli_strip_colors(job->context, mesh, &colors) != MT_OK) {
+        return cli_report_failure(job, job->operands[0]);
+    }
+    how.face_colors = colors;
+    cli_exit code = draw(job, mesh, read, &how);
+    mt_free(job->context, colors);
+    return code;
+}
+
 cli_exit preview_draw(const cli_job *job, const mt_mesh *mesh, const mt_mesh_format *read)
 {
     const preview_settings *settings = job->settings;
     mt_preview_options how = options_of(settings);
+    if (settings->coloring.strips) {
+        return draw_strips(job, mesh, read, how);
+    }
     return settings->coloring.defects ? draw_defects(job, mesh, read, how) : draw(job, mesh, read, &how);
 }

@@ -1,12 +1,16 @@
-/* The records of the mesh formats, one at the end of each format's file. mesh_formats.c lists them. */
+/* The records of the formats for meshes and strips, one at the end of each format's file. mesh_formats.c and
+ * strip_formats.c list them. */
 #ifndef MESHTOOL_MESH_RECORDS_H
 #define MESHTOOL_MESH_RECORDS_H
 
 #include <meshtool/mesh_format.h>
+#include <meshtool/strip_format.h>
 
 extern const mt_mesh_format mt_obj_format;
 extern const mt_mesh_format mt_off_format;
 extern const mt_mesh_format mt_ply_format;
 extern const mt_mesh_format mt_stl_format;
+
+extern const mt_strip_format mt_strips_text_format;
 
 #endif

@@ -1,5 +1,5 @@
-/* Strips in four steps: what lies across each side, a cover of the triangles by runs, cuts where fans are asked for, and
- * the runs written out. */
+/* Strips in four steps: what lies across each side, a cover of the triangles by runs, cuts where fans are asked for,
+ * and the runs written out. */
 #include <meshtool/strips.h>
 
 #include "lib/algorithms/strips_graph.h"

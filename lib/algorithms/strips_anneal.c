@@ -12,8 +12,8 @@
 
 #include <string.h>
 
-/* Steps a triangle; small meshes get more, as they can afford it: with STEPS_SMALL / triangles more. Fewer: longer strips
- * stay unfound; more: time grows in proportion. */
+/* Steps a triangle; small meshes get more, as they can afford it: with STEPS_SMALL / triangles more. Fewer: longer
+ * strips stay unfound; more: time grows in proportion. */
 #define STEPS 100.0
 #define STEPS_SMALL 4e6
 #define STEPS_MAXIMUM 4000.0
@@ -23,10 +23,10 @@
 #define TEMPERATURE_FIRST 0.6
 #define TEMPERATURE_LAST 0.12
 
-#define BLOCK 16384        /* steps at one temperature */
-#define PRICE_ROOM 32      /* no step costs as much */
-#define END_SHARE 0.85     /* of steps that begin at the end of a run, where most gain is */
-#define MOVED_MAXIMUM 4    /* triangles whose links a step changes */
+#define BLOCK 16384     /* steps at one temperature */
+#define PRICE_ROOM 32   /* no step costs as much */
+#define END_SHARE 0.85  /* of steps that begin at the end of a run, where most gain is */
+#define MOVED_MAXIMUM 4 /* triangles whose links a step changes */
 
 typedef struct annealer {
     const strip_graph *graph;
@@ -213,7 +213,8 @@ static void step(annealer *state)
     uint64_t first = draw(state), second = draw(state);
     bool from_end = (uint32_t)first < (uint32_t)(END_SHARE * 4294967296.0) && state->end_count;
     uint32_t bits = (uint32_t)(first >> 32);
-    mt_index triangle = from_end ? state->ends[scale(bits, state->end_count)] : scale(bits, state->graph->triangle_count);
+    mt_index triangle =
+        from_end ? state->ends[scale(bits, state->end_count)] : scale(bits, state->graph->triangle_count);
     unsigned links = state->links[triangle], place = scale((uint32_t)(second & 0xffffu) << 16, 3);
     strip_side side = 4 * triangle + place, other = state->graph->across[side];
     strip_move move = {0};
@@ -262,20 +263,45 @@ static mt_status anneal(mt_context *context, annealer *state)
     return status;
 }
 
+/* All runs and turns; what is equal for every cover is left out. */
+static int64_t price_cover(const annealer *state)
+{
+    int64_t doubled = 0; /* runs have two ends, links two sides */
+    for (mt_index t = 0; t < state->graph->triangle_count; t++) {
+        unsigned links = state->links[t];
+        doubled += (int64_t)(2 - strip_link_count(links)) * state->prices->run;
+        for (unsigned place = 0; place < 3; place++) {
+            if (links >> place & 1u) {
+                strip_side other = strip_across(state->graph, t, place);
+                unsigned turn_across = strip_turn(state->links[strip_triangle_of(other)], strip_place_of(other));
+                doubled += strip_turn_price(state->prices, strip_turn(links, place), turn_across);
+            }
+        }
+    }
+    return doubled / 2;
+}
+
 mt_status mt_strip_cover_anneal(mt_context *context, const strip_graph *graph, const strip_prices *prices,
                                 uint8_t *links)
 {
     annealer state = {.graph = graph, .prices = prices, .links = links};
     state.ends = mt_allocate_array(context, graph->triangle_count, sizeof(mt_index));
     state.end_places = mt_allocate_array(context, graph->triangle_count, sizeof(mt_index));
-    mt_status status = state.ends && state.end_places ? MT_OK : mt_context_error(context)->status;
+    uint8_t *first = mt_allocate(context, graph->triangle_count);
+    mt_status status = state.ends && state.end_places && first ? MT_OK : mt_context_error(context)->status;
     if (status == MT_OK && graph->triangle_count > 1) {
+        int64_t first_price = price_cover(&state);
+        memcpy(first, links, graph->triangle_count);
         memset(state.end_places, 0xff, graph->triangle_count * sizeof(mt_index));
         for (mt_index t = 0; t < graph->triangle_count; t++) {
             renew_end(&state, t);
         }
         status = anneal(context, &state);
+        if (price_cover(&state) > first_price) {
+            memcpy(links, first, graph->triangle_count);
+        }
     }
+    mt_free(context, first);
     mt_free(context, state.ends);
     mt_free(context, state.end_places);
     return status;

@@ -16,7 +16,7 @@ typedef struct run_cutter {
     const strip_graph *graph;
     bool keep_strips;
     uint8_t *links, *is_fan;
-    uint8_t *done; /* triangles of runs that were cut */
+    uint8_t *done;    /* triangles of runs that were cut */
     strip_side *path; /* the triangles of a run with the sides that they are entered across; the first's is 3 */
     uint8_t *trace;   /* bits 0 to 2: the cheapest state at the triangle before; 3 and 4: whether a strip, a fan of more
                          was one before */
@@ -71,8 +71,8 @@ static uint8_t extend(const run_cutter *cutter, mt_index i, int64_t *costs)
 static void cut_before(const run_cutter *cutter, mt_index i)
 {
     strip_side side = cutter->path[i], other = cutter->graph->across[side];
-    cutter->links[strip_triangle_of(side)] &= (uint8_t)~(1u << strip_place_of(side));
-    cutter->links[strip_triangle_of(other)] &= (uint8_t)~(1u << strip_place_of(other));
+    cutter->links[strip_triangle_of(side)] &= (uint8_t) ~(1u << strip_place_of(side));
+    cutter->links[strip_triangle_of(other)] &= (uint8_t) ~(1u << strip_place_of(other));
 }
 
 static void apply(const run_cutter *cutter, mt_index count, unsigned state)

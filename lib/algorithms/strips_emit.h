@@ -23,8 +23,8 @@ unsigned mt_strip_end_turn(const strip_graph *graph, const uint8_t *links, mt_in
 /* The corner with which a run begins that starts at this end: the one that its second triangle does not have. */
 unsigned mt_strip_end_corner(const uint8_t *links, mt_index end);
 
-/* Appends a run to the strip being written; `corner` is that of its first vertex. Between two runs the caller appends what
- * joins them. */
+/* Appends a run to the strip being written; `corner` is that of its first vertex. Between two runs the caller appends
+ * what joins them. */
 void mt_strip_emit_run(strip_emitter *emitter, mt_index end, unsigned corner);
 /* Appends a run whose turns are all 2 seen from this end as a fan. */
 void mt_strip_emit_fan(strip_emitter *emitter, mt_index end);

@@ -1,5 +1,6 @@
 /* Strips come in the order of their lowest end. One that is done goes on with a run that begins at its last vertex, if
- * there is one whose first turn then needs no swap: two triangles without area and no restart. O(triangles + vertices). */
+ * there is one whose first turn then needs no swap: two triangles without area and no restart. O(triangles + vertices).
+ */
 #include "lib/algorithms/strips_list.h"
 
 #include "lib/algorithms/strips_emit.h"
@@ -88,14 +89,19 @@ static bool is_degenerate(const strip_graph *graph, mt_index t)
     return a == b || b == c || c == a;
 }
 
+static bool stays_alone(const run_lister *lister, const strip_run *run)
+{
+    return run->is_fan || (run->ends[0] == run->ends[1] && is_degenerate(lister->graph, run->ends[0]));
+}
+
 static void enter_ends(run_lister *lister)
 {
     memset(lister->heads, 0xff, 3 * (size_t)lister->graph->vertex_count * sizeof(mt_index));
     for (mt_index i = lister->run_count; i-- > 0;) {
         const strip_run *run = &lister->runs[i];
         bool single = run->ends[0] == run->ends[1];
-        bool alone = run->is_fan || (single && is_degenerate(lister->graph, run->ends[0]));
-        for (mt_index end = 0; end < (single ? 3u : 2u) && !alone; end++) {
+        mt_index end_count = stays_alone(lister, run) ? 0 : single ? 3 : 2;
+        for (mt_index end = 0; end < end_count; end++) {
             enter_end(lister, 3 * i + end);
         }
     }
@@ -110,11 +116,11 @@ static mt_index pop_end(const run_lister *lister, mt_index *head)
     return *head;
 }
 
-/* An end at which the strip being written can go on without a swap. */
-static mt_index find_next_end(const run_lister *lister)
+/* An end at which the strip being written, the last run of which is given, can go on without a swap. */
+static mt_index find_next_end(const run_lister *lister, const strip_run *last)
 {
     const strip_emitter *emitter = &lister->emitter;
-    if (!lister->heads) {
+    if (!lister->heads || stays_alone(lister, last)) {
         return MT_NONE;
     }
     mt_index *heads = lister->heads + 3 * (size_t)emitter->strips->indices[emitter->index_count - 1];
@@ -164,8 +170,9 @@ static void write_strips(run_lister *lister)
         if (one_strip && emitter->index_count) {
             reach(lister, entry);
         }
-        for (; entry != MT_NONE; entry = find_next_end(lister)) {
+        while (entry != MT_NONE) {
             write_run(lister, entry);
+            entry = find_next_end(lister, &lister->runs[entry / 3]);
         }
         if (!one_strip) {
             mt_strip_emit_end(emitter);
@@ -198,8 +205,9 @@ static mt_status allocate_strips(mt_context *context, run_lister *lister, mt_ind
     mt_strips *strips = lister->emitter.strips;
     uint64_t room = 2 * (uint64_t)strips->triangle_count + 3 * (uint64_t)run_count;
     if (!mt_count_fits(room)) {
-        return mt_fail(context, MT_ERROR_TOO_LARGE, "strips of %u triangles could take %llu indices, which are too many",
-                       strips->triangle_count, (unsigned long long)room);
+        return mt_fail(context, MT_ERROR_TOO_LARGE,
+                       "strips of %u triangles could take %llu indices, which are too many", strips->triangle_count,
+                       (unsigned long long)room);
     }
     strips->offsets = mt_allocate_array(context, run_count + (uint64_t)1, sizeof(mt_index));
     strips->indices = mt_allocate_array(context, room, sizeof(mt_index));

@@ -1,15 +1,12 @@
 #include "lib/render/coloring.h"
 
 #include <meshtool/components.h>
+#include <meshtool/palette.h>
 
 #include <math.h>
 #include <string.h>
 
 #define FACE_BLOCK 16384
-
-/* The fraction of a turn between one hue and the next: the golden section's multiples fill a circle evenly, however
- * many there are. */
-#define GOLDEN_TURN 0.61803398874989485
 
 typedef struct paint_task {
     const mt_model *model;
@@ -17,36 +14,11 @@ typedef struct paint_task {
     unsigned char *colors;
 } paint_task;
 
-static double hue_channel(double hue, double shift)
-{
-    double h = hue + shift;
-    h -= floor(h);
-    double rise = fabs(6.0 * h - 3.0) - 1.0;
-    return rise < 0 ? 0.0 : rise > 1 ? 1.0 : rise;
-}
-
-static void set_hue(unsigned char *color, double hue, double saturation, double value)
-{
-    const double shifts[3] = {0.0, 2.0 / 3.0, 1.0 / 3.0};
-    for (int i = 0; i < 3; i++) {
-        double c = value * (1.0 - saturation + saturation * hue_channel(hue, shifts[i]));
-        color[i] = (unsigned char)(255.0 * c + 0.5);
-    }
-}
-
-static double hue_of(mt_index number)
-{
-    double turns = 0.58 + GOLDEN_TURN * number;
-    return turns - floor(turns);
-}
-
 static void paint_each(void *user, uint64_t begin, uint64_t end)
 {
     const paint_task *task = (const paint_task *)user;
     for (uint64_t face = begin; face < end; face++) {
-        /* Lighter and darker in turn, so that the few neighbours with like hues differ too. */
-        double value = face % 3 == 0 ? 0.92 : face % 3 == 1 ? 0.80 : 0.68;
-        set_hue(task->colors + 3 * face, hue_of((mt_index)face), 0.52, value);
+        mt_palette_distinct_color((mt_index)face, task->colors + 3 * face);
     }
 }
 
@@ -54,7 +26,7 @@ static void paint_components(void *user, uint64_t begin, uint64_t end)
 {
     const paint_task *task = (const paint_task *)user;
     for (uint64_t face = begin; face < end; face++) {
-        set_hue(task->colors + 3 * face, hue_of(task->components->face_component[face]), 0.42, 0.88);
+        mt_palette_color(task->components->face_component[face], 0.42, 0.88, task->colors + 3 * face);
     }
 }
 

@@ -97,14 +97,12 @@ says 'the scale bar is 1 long'
 
 # What is refused, before anything is read or written.
 for wrong in "--projection fisheye" "--view above" "--up 0,0,0" "--up x" "--eye 1,2" "--eye 1,nan,2" "--target a,b,c" \
-  "--fov 0" "--fov 180" "--fov -1" "--samples 5" "--samples 100" "--shading gouraud" "--crease 181" "--color-by strip" \
-  "--color-by red" "--method both" "--accel obb" "--accel grid" "--accel bsp" "--triangle-test quick" "--turntable 1" \
+  "--fov 0" "--fov 180" "--fov -1" "--samples 5" "--samples 100" "--shading gouraud" "--crease 181" "--color-by red" \
+  "--method both" "--accel obb" "--accel grid" "--accel bsp" "--triangle-test quick" "--turntable 1" \
   "--turntable x" "--size 0x5" "--size 70000x5" "--background 1,2" "--background 256,0,0"; do
   # shellcheck disable=SC2086
   run 2 preview none.obj -o wrong.png $wrong
 done
-run 2 preview none.obj -o wrong.png --color-by strip
-says 'strip comes with the strips command'
 run 2 preview none.obj -o wrong.png --accel grid
 says 'not built yet'
 holds 'nothing was written' test ! -e wrong.png

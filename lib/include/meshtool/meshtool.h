@@ -54,6 +54,7 @@
 #include <meshtool/self_intersection.h> /* faces that meet where they should not, decided exactly */
 #include <meshtool/signed_distance.h>   /* negative inside */
 #include <meshtool/storage.h>           /* bytes of each way to store a mesh */
+#include <meshtool/strips.h>            /* triangles as strips and fans */
 #include <meshtool/subdivide.h>         /* Catmull-Clark */
 
 /* Pictures */
@@ -62,6 +63,7 @@
 #include <meshtool/color.h>   /* hue, saturation and value, luminance, linear light */
 #include <meshtool/image.h>   /* float raster */
 #include <meshtool/ink.h>     /* lines and letters on a picture */
+#include <meshtool/palette.h> /* colours for things that have numbers */
 #include <meshtool/preview.h> /* a picture of any mesh */
 #include <meshtool/scene.h>   /* objects, materials, lights: ray tracing */
 
@@ -70,5 +72,6 @@
 #include <meshtool/image_format.h> /* PNG, JPEG, TIFF, PPM and kin, PFM */
 #include <meshtool/mesh_format.h>  /* OBJ, OFF, PLY, STL */
 #include <meshtool/scene_format.h> /* scenes in JSON */
+#include <meshtool/strip_format.h> /* strips and fans as text */
 
 #endif

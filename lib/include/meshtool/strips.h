@@ -20,8 +20,8 @@ typedef enum mt_strip_kind {
 } mt_strip_kind;
 
 typedef enum mt_strip_join {
-    MT_STRIP_JOIN_RESTART,    /* strips that a restart index keeps apart; one that begins where another ends is joined to
-                                 it by two triangles without area instead, which is an index shorter */
+    MT_STRIP_JOIN_RESTART, /* strips that a restart index keeps apart; one that begins where another ends is joined to
+                              it by two triangles without area instead, which is an index shorter */
     MT_STRIP_JOIN_DEGENERATE, /* all strips in one, by triangles without area; not for fans */
     MT_STRIP_JOIN_NONE        /* every strip by itself */
 } mt_strip_join;
@@ -55,9 +55,9 @@ typedef struct mt_strips {
  * triangles it cannot be told from these).
  *
  * Fast: greedily, from the triangles that have the fewest neighbours left; O(vertices + corners). Thorough: anneals
- * that cover, in a time that grows with the triangles too, about fifty times as long for large meshes and more for small
- * ones; the same on every machine. MT_ERROR_ARGUMENT for fans to be joined by degenerate triangles, MT_ERROR_TOO_LARGE
- * for more than 2^30 triangles. Ownership of *out: the caller's, until mt_strips_destroy. */
+ * that cover, in a time that grows with the triangles too, about fifty times as long for large meshes and more for
+ * small ones; the same on every machine. MT_ERROR_ARGUMENT for fans to be joined by degenerate triangles,
+ * MT_ERROR_TOO_LARGE for more than 2^30 triangles. Ownership of *out: the caller's, until mt_strips_destroy. */
 mt_status mt_strips_create(mt_context *context, const mt_mesh *mesh, const mt_strip_options *options, mt_strips **out);
 void mt_strips_destroy(mt_context *context, mt_strips *strips); /* NULL is allowed */
 
