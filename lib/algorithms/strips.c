@@ -11,30 +11,68 @@
 static const strip_prices strip_costs = {.run = 3, .equal = 1, .alternate = 0};
 static const strip_prices fan_costs = {.run = 3, .equal = 0, .alternate = 3};
 
-static mt_status cover(mt_context *context, const strip_graph *graph, const mt_strip_options *options, uint8_t *links)
-{
-    const strip_prices *prices = options->kind == MT_STRIP_KIND_FAN ? &fan_costs : &strip_costs;
-    memset(links, 0, graph->triangle_count);
-    mt_status status = mt_strip_cover_greedily(context, graph, prices, links);
-    return status == MT_OK && options->thorough ? mt_strip_cover_anneal(context, graph, prices, links) : status;
-}
-
-static mt_status cover_and_list(mt_context *context, const strip_graph *graph, const mt_strip_options *options,
-                                mt_strips *strips)
+/* Writes out a cover, which it may cut. */
+static mt_status list_cover(mt_context *context, const strip_graph *graph, const mt_strip_options *options,
+                            uint8_t *links, mt_strips **out)
 {
     bool with_fans = options->kind != MT_STRIP_KIND_STRIP;
-    uint8_t *links = mt_allocate(context, graph->triangle_count);
     uint8_t *is_fan = with_fans ? mt_allocate(context, graph->triangle_count) : NULL;
-    bool allocated = links && (is_fan || !with_fans);
-    mt_status status = allocated ? cover(context, graph, options, links) : mt_context_error(context)->status;
+    mt_strips *strips = mt_allocate_zeroed(context, sizeof *strips);
+    mt_status status = strips && (is_fan || !with_fans) ? MT_OK : mt_context_error(context)->status;
     if (status == MT_OK && with_fans) {
         status = mt_strip_cut_fans(context, graph, options->kind == MT_STRIP_KIND_MIXED, links, is_fan);
     }
     if (status == MT_OK) {
+        strips->join = options->join;
         status = mt_strip_list(context, graph, links, is_fan, strips);
     }
-    mt_free(context, links);
     mt_free(context, is_fan);
+    if (status != MT_OK) {
+        mt_strips_destroy(context, strips);
+        strips = NULL;
+    }
+    *out = strips;
+    return status;
+}
+
+/* The search does not count all that the list does, and so may end a little above where it began: the shorter stays. */
+static mt_status search(mt_context *context, const strip_graph *graph, const mt_strip_options *options,
+                        const strip_prices *prices, uint8_t *links, mt_strips **strips)
+{
+    mt_strips *longer = NULL;
+    mt_status status = mt_strip_cover_anneal(context, graph, prices, links);
+    if (status == MT_OK) {
+        status = list_cover(context, graph, options, links, &longer);
+    }
+    if (status == MT_OK && mt_strips_index_count(longer) < mt_strips_index_count(*strips)) {
+        mt_strips *shorter = longer;
+        longer = *strips;
+        *strips = shorter;
+    }
+    mt_strips_destroy(context, longer);
+    return status;
+}
+
+static mt_status cover_and_list(mt_context *context, const strip_graph *graph, const mt_strip_options *options,
+                                mt_strips **out)
+{
+    const strip_prices *prices = options->kind == MT_STRIP_KIND_FAN ? &fan_costs : &strip_costs;
+    uint8_t *links = mt_allocate_zeroed(context, graph->triangle_count);
+    uint8_t *searched = options->thorough ? mt_allocate(context, graph->triangle_count) : NULL;
+    bool allocated = links && (searched || !options->thorough);
+    mt_status status =
+        allocated ? mt_strip_cover_greedily(context, graph, prices, links) : mt_context_error(context)->status;
+    if (status == MT_OK && searched) {
+        memcpy(searched, links, graph->triangle_count);
+    }
+    if (status == MT_OK) {
+        status = list_cover(context, graph, options, links, out);
+    }
+    if (status == MT_OK && searched) {
+        status = search(context, graph, options, prices, searched, out);
+    }
+    mt_free(context, links);
+    mt_free(context, searched);
     return status;
 }
 
@@ -52,12 +90,8 @@ mt_status mt_strips_create(mt_context *context, const mt_mesh *mesh, const mt_st
     if (status != MT_OK) {
         return status;
     }
-    mt_strips *strips = mt_allocate_zeroed(context, sizeof *strips);
-    status = strips ? MT_OK : mt_context_error(context)->status;
-    if (status == MT_OK) {
-        strips->join = options->join;
-        status = cover_and_list(context, &graph, options, strips);
-    }
+    mt_strips *strips = NULL;
+    status = cover_and_list(context, &graph, options, &strips);
     mt_strip_graph_release(context, &graph);
     if (status != MT_OK) {
         mt_strips_destroy(context, strips);

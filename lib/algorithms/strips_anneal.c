@@ -263,45 +263,20 @@ static mt_status anneal(mt_context *context, annealer *state)
     return status;
 }
 
-/* All runs and turns; what is equal for every cover is left out. */
-static int64_t price_cover(const annealer *state)
-{
-    int64_t doubled = 0; /* runs have two ends, links two sides */
-    for (mt_index t = 0; t < state->graph->triangle_count; t++) {
-        unsigned links = state->links[t];
-        doubled += (int64_t)(2 - strip_link_count(links)) * state->prices->run;
-        for (unsigned place = 0; place < 3; place++) {
-            if (links >> place & 1u) {
-                strip_side other = strip_across(state->graph, t, place);
-                unsigned turn_across = strip_turn(state->links[strip_triangle_of(other)], strip_place_of(other));
-                doubled += strip_turn_price(state->prices, strip_turn(links, place), turn_across);
-            }
-        }
-    }
-    return doubled / 2;
-}
-
 mt_status mt_strip_cover_anneal(mt_context *context, const strip_graph *graph, const strip_prices *prices,
                                 uint8_t *links)
 {
     annealer state = {.graph = graph, .prices = prices, .links = links};
     state.ends = mt_allocate_array(context, graph->triangle_count, sizeof(mt_index));
     state.end_places = mt_allocate_array(context, graph->triangle_count, sizeof(mt_index));
-    uint8_t *first = mt_allocate(context, graph->triangle_count);
-    mt_status status = state.ends && state.end_places && first ? MT_OK : mt_context_error(context)->status;
+    mt_status status = state.ends && state.end_places ? MT_OK : mt_context_error(context)->status;
     if (status == MT_OK && graph->triangle_count > 1) {
-        int64_t first_price = price_cover(&state);
-        memcpy(first, links, graph->triangle_count);
         memset(state.end_places, 0xff, graph->triangle_count * sizeof(mt_index));
         for (mt_index t = 0; t < graph->triangle_count; t++) {
             renew_end(&state, t);
         }
         status = anneal(context, &state);
-        if (price_cover(&state) > first_price) {
-            memcpy(links, first, graph->triangle_count);
-        }
     }
-    mt_free(context, first);
     mt_free(context, state.ends);
     mt_free(context, state.end_places);
     return status;
