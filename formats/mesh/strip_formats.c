@@ -1,7 +1,7 @@
 /* The table of formats for strips, and writing by a path's extension. */
-#include "formats/mesh/recognition.h"
 #include "formats/mesh/records.h"
 #include "formats/stream/output.h"
+#include "formats/stream/path.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -44,13 +44,13 @@ static void fail_unknown(mt_context *context, const char *path, const char *exte
 const mt_strip_format *mt_strip_format_for_output(mt_context *context, const char *path,
                                                   const mt_strip_write_options *options)
 {
-    const char *extension = options ? options->format : NULL;
-    if (!extension) {
-        extension = mt_output_is_stream(path) ? "txt" : mt_path_extension(path);
+    mt_extension named;
+    if (mt_path_output_extension(context, path, options ? options->format : NULL, "txt", &named) != MT_OK) {
+        return NULL;
     }
-    const mt_strip_format *format = find_format(extension);
+    const mt_strip_format *format = find_format(named.text);
     if (!format) {
-        fail_unknown(context, path, extension);
+        fail_unknown(context, path, named.text);
     }
     return format;
 }
