@@ -1,4 +1,4 @@
-#include "lib/render/scene_draw.h"
+#include "lib/render/scene_measure.h"
 
 #include <string.h>
 
@@ -42,41 +42,79 @@ static uint64_t count_triangles(const mt_scene *scene)
     return count;
 }
 
+/* One run: how it was drawn, and what came of it. */
+typedef struct rendering {
+    mt_scene_plan plan;
+    mt_scene_world world;
+    bool has_world;
+    mt_image *image;
+    mt_scene_report report;
+} rendering;
+
+static mt_status make_world(mt_context *context, rendering *r)
+{
+    const char *reason = NULL;
+    mt_visibility_method method = r->plan.options.method;
+    r->has_world = mt_scene_world_fits(&r->plan, &reason);
+    if (method == MT_METHOD_RASTER && !r->has_world) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "the scene cannot be drawn by rasterising: %s", reason);
+    }
+    if (!r->has_world) {
+        return MT_OK;
+    }
+    if (method != MT_METHOD_RAY) {
+        mt_part_skip(context, "surface tree", reason);
+    }
+    return mt_scene_world_init(context, &r->plan, &r->world);
+}
+
+static mt_status draw(mt_context *context, rendering *r)
+{
+    tell_skipped(context, &r->plan);
+    mt_status status = make_world(context, r);
+    uint32_t channels = r->plan.scene->background.kind == MT_SCENE_TRANSPARENT ? 4 : 3;
+    if (status == MT_OK) {
+        status = mt_image_create_unfilled(context, r->plan.camera.width, r->plan.camera.height, channels, &r->image);
+    }
+    if (status == MT_OK) {
+        r->image->space = MT_COLOR_LINEAR;
+        status = mt_scene_draw(context, &r->plan, r->has_world ? &r->world : NULL, r->image, &r->report);
+    }
+    if (status == MT_OK && !r->has_world) {
+        tell_unseen(context, &r->plan);
+    }
+    return status;
+}
+
 mt_status mt_scene_render(mt_context *context, const mt_scene *scene, const mt_scene_options *options, mt_image **out,
                           mt_scene_report *report)
 {
     static const mt_scene_options defaults = {.method = MT_METHOD_AUTO};
-    mt_scene_plan plan;
-    mt_scene_report found = {0};
-    mt_image *image = NULL;
+    rendering r;
+    memset(&r, 0, sizeof r);
     *out = NULL;
     options = options ? options : &defaults;
     mt_status status = mt_scene_check(context, scene, options);
     if (status == MT_OK) {
-        status = mt_scene_plan_init(context, scene, options, &plan);
+        status = mt_scene_plan_init(context, scene, options, &r.plan);
     }
     if (status != MT_OK) {
         return status;
     }
-    tell_skipped(context, &plan);
-    uint32_t channels = scene->background.kind == MT_SCENE_TRANSPARENT ? 4 : 3;
-    status = mt_image_create_unfilled(context, plan.camera.width, plan.camera.height, channels, &image);
-    if (status == MT_OK) {
-        image->space = MT_COLOR_LINEAR;
-        status = mt_scene_draw(context, &plan, image, &found);
+    status = draw(context, &r);
+    if (status == MT_OK && options->measure_skipped) {
+        status = mt_scene_measure_skipped(context, &r.plan, r.has_world, r.image);
     }
-    if (status == MT_OK) {
-        tell_unseen(context, &plan);
-        found.triangles = count_triangles(scene);
-    }
-    mt_scene_plan_release(context, &plan);
+    r.report.triangles = count_triangles(scene);
+    mt_scene_world_release(context, &r.world);
+    mt_scene_plan_release(context, &r.plan);
     if (status != MT_OK) {
-        mt_image_destroy(context, image);
+        mt_image_destroy(context, r.image);
         return status;
     }
     if (report) {
-        *report = found;
+        *report = r.report;
     }
-    *out = image;
+    *out = r.image;
     return MT_OK;
 }

@@ -4,7 +4,7 @@
 #include "lib/render/scene_draw.h"
 
 #include "lib/render/scene_path.h"
-#include "lib/render/tile.h"
+#include "lib/render/scene_world.h"
 
 #include <math.h>
 
@@ -21,11 +21,13 @@ typedef struct draw_task {
     const mt_scene_plan *plan;
     mt_image *image;
     mt_sampling sampling;
-    unsigned char *tiles;       /* per tile of the picture: TILE_WAITING or TILE_DRAWN */
-    unsigned char *varied;      /* per pixel not 0: its samples differ; NULL: nobody asks */
-    const unsigned char *fine;  /* per pixel not 0: to be drawn; NULL: all are */
-    unsigned char *stacks;      /* one for each thread; NULL: no stack */
-    unsigned char *stack_taken; /* atomic */
+    unsigned char *tiles;        /* per tile of the picture: TILE_WAITING or TILE_DRAWN */
+    unsigned char *varied;       /* per pixel not 0: its samples differ; NULL: nobody asks */
+    const unsigned char *fine;   /* per pixel not 0: to be drawn; NULL: all are */
+    const mt_scene_world *world; /* what samples see first; NULL: rays ask the plan */
+    mt_tile *canvases;           /* for the world, one for each thread; NULL: no world */
+    unsigned char *stacks;       /* one for each thread; NULL: no stack */
+    unsigned char *taken;        /* per thread: its stack and canvas are in use; atomic */
     unsigned thread_count;
     size_t first_tile;
     mt_scene_report rays; /* atomic */
@@ -66,20 +68,38 @@ static void store(const draw_task *task, uint32_t x, uint32_t y, mt_vec3 light, 
     }
 }
 
+/* What a thread draws with. */
+typedef struct brush {
+    mt_scene_tracer tracer;
+    mt_tile tile; /* its numbers are those of the world's triangles, when there is a world */
+} brush;
+
+static mt_scene_hit first_hit(const draw_task *task, brush *own, const mt_scene_ray *ray, uint32_t x, uint32_t y,
+                              unsigned sample)
+{
+    if (!task->world) {
+        return mt_scene_nearest(&own->tracer, ray);
+    }
+    mt_scene_hit hit = mt_scene_nearest_formula(task->plan, ray);
+    mt_index number = own->tile.numbers[mt_tile_lane(&own->tile, x, y) + sample];
+    mt_scene_hit found = mt_scene_world_hit(task->world, &task->sampling, number, x, y, sample);
+    return mt_scene_is_nearer(&found, &hit) ? found : hit;
+}
+
 /* Samples are summed in their order. False: a mesh is missing. */
-static bool draw_pixel(draw_task *task, mt_scene_tracer *tracer, uint32_t x, uint32_t y)
+static bool draw_pixel(draw_task *task, brush *own, uint32_t x, uint32_t y)
 {
     mt_vec3 sum = mt_vec3_make(0, 0, 0), first = sum;
     double alpha = 0;
     bool varies = false;
     for (unsigned i = 0; i < task->sampling.sample_count; i++) {
         mt_scene_ray ray = primary_ray(task, x, y, i);
-        mt_scene_hit hit = mt_scene_nearest(tracer, &ray);
+        mt_scene_hit hit = first_hit(task, own, &ray, x, y, i);
         mt_scene_sample sample = {{0, 0, 0}, 0};
-        if (!tracer->is_blocked) {
-            sample = mt_scene_sample_of(tracer, &ray, &hit);
+        if (!own->tracer.is_blocked) {
+            sample = mt_scene_sample_of(&own->tracer, &ray, &hit);
         }
-        if (tracer->is_blocked) {
+        if (own->tracer.is_blocked) {
             return false;
         }
         first = i == 0 ? sample.light : first;
@@ -94,32 +114,51 @@ static bool draw_pixel(draw_task *task, mt_scene_tracer *tracer, uint32_t x, uin
     return true;
 }
 
-static void draw_tile(draw_task *task, size_t tile_number, void *stack)
+static bool is_asked(const draw_task *task, uint32_t x, uint32_t y)
 {
-    mt_tile tile = {0};
-    mt_scene_tracer tracer = {.plan = task->plan, .stack = stack};
+    return !task->fine || task->fine[(size_t)y * task->image->width + x];
+}
+
+static bool is_tile_asked(const draw_task *task, const mt_tile *tile)
+{
+    for (uint32_t y = tile->y; y < tile->y + tile->height; y++) {
+        for (uint32_t x = tile->x; x < tile->x + tile->width; x++) {
+            if (is_asked(task, x, y)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static void draw_tile(draw_task *task, brush *own, size_t tile_number)
+{
     uint64_t pixels = 0;
-    mt_tile_place(&tile, &task->plan->camera, tile_number);
-    for (uint32_t y = tile.y; y < tile.y + tile.height; y++) {
-        for (uint32_t x = tile.x; x < tile.x + tile.width; x++) {
-            if (task->fine && !task->fine[(size_t)y * task->image->width + x]) {
+    mt_tile *tile = &own->tile;
+    mt_tile_place(tile, &task->plan->camera, tile_number);
+    if (task->world && is_tile_asked(task, tile)) {
+        mt_scene_world_draw(task->world, &task->sampling, tile);
+    }
+    for (uint32_t y = tile->y; y < tile->y + tile->height; y++) {
+        for (uint32_t x = tile->x; x < tile->x + tile->width; x++) {
+            if (!is_asked(task, x, y)) {
                 continue;
             }
-            if (!draw_pixel(task, &tracer, x, y)) {
+            if (!draw_pixel(task, own, x, y)) {
                 return;
             }
             pixels++;
         }
     }
     task->tiles[tile_number] = TILE_DRAWN;
-    count_rays(task, &tracer, pixels * task->sampling.sample_count);
+    count_rays(task, &own->tracer, pixels * task->sampling.sample_count);
 }
 
-/* There are as many stacks as threads, so one is free. */
-static unsigned take_stack(draw_task *task)
+/* There is one for each thread, so one is free. */
+static unsigned take(draw_task *task)
 {
     for (unsigned i = 0;; i = i + 1 < task->thread_count ? i + 1 : 0) {
-        if (!__atomic_exchange_n(&task->stack_taken[i], 1, __ATOMIC_ACQUIRE)) {
+        if (!__atomic_exchange_n(&task->taken[i], 1, __ATOMIC_ACQUIRE)) {
             return i;
         }
     }
@@ -128,17 +167,21 @@ static unsigned take_stack(draw_task *task)
 static void draw_tiles(void *user, uint64_t begin, uint64_t end)
 {
     draw_task *task = (draw_task *)user;
-    unsigned own = task->stacks ? take_stack(task) : 0;
-    void *stack = task->stacks ? task->stacks + own * mt_scene_stack_size(task->plan->depth_limit) : NULL;
+    unsigned number = take(task);
     for (uint64_t i = begin; i < end; i++) {
         size_t tile_number = task->first_tile + (size_t)i;
+        brush own = {.tracer = {.plan = task->plan}};
+        if (task->stacks) {
+            own.tracer.stack = (void *)(task->stacks + number * mt_scene_stack_size(task->plan->depth_limit));
+        }
+        if (task->canvases) {
+            own.tile = task->canvases[number];
+        }
         if (task->tiles[tile_number] == TILE_WAITING) {
-            draw_tile(task, tile_number, stack);
+            draw_tile(task, &own, tile_number);
         }
     }
-    if (task->stacks) {
-        __atomic_store_n(&task->stack_taken[own], 0, __ATOMIC_RELEASE);
-    }
+    __atomic_store_n(&task->taken[number], 0, __ATOMIC_RELEASE);
 }
 
 static size_t tile_count_of(const mt_camera *camera)
@@ -207,6 +250,27 @@ static void find_changes(void *user, uint64_t begin, uint64_t end)
     }
 }
 
+static void release_canvases(mt_context *context, draw_task *task)
+{
+    for (unsigned i = 0; task->canvases && i < task->thread_count; i++) {
+        mt_tile_release(context, &task->canvases[i]);
+    }
+    mt_free(context, task->canvases);
+    task->canvases = NULL;
+}
+
+static mt_status make_canvases(mt_context *context, draw_task *task)
+{
+    release_canvases(context, task);
+    task->canvases = (mt_tile *)mt_allocate_array_zeroed(context, task->thread_count, sizeof *task->canvases);
+    bool ready = task->canvases != NULL;
+    const mt_frame frame = {.sampling = task->sampling};
+    for (unsigned i = 0; ready && i < task->thread_count; i++) {
+        ready = mt_tile_init(context, &frame, false, &task->canvases[i]);
+    }
+    return ready ? MT_OK : mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "no memory left for a tile of the picture");
+}
+
 static mt_status refine(mt_context *context, mt_scene_plan *plan, draw_task *task, size_t tile_count)
 {
     size_t pixels = (size_t)task->image->width * task->image->height;
@@ -223,36 +287,46 @@ static mt_status refine(mt_context *context, mt_scene_plan *plan, draw_task *tas
     task->fine = fine;
     unsigned char *varied = task->varied;
     task->varied = NULL;
-    mt_status status = draw_all(context, plan, task, tile_count);
+    mt_status status = task->world ? make_canvases(context, task) : MT_OK;
+    if (status == MT_OK) {
+        status = draw_all(context, plan, task, tile_count);
+    }
     task->varied = varied;
     mt_free(context, fine);
     return status;
 }
 
-static mt_status make_room(mt_context *context, const mt_scene_plan *plan, draw_task *task, size_t tile_count)
+static mt_status make_stacks(mt_context *context, const mt_scene_plan *plan, draw_task *task)
 {
-    size_t pixels = (size_t)task->image->width * task->image->height;
-    task->tiles = (unsigned char *)mt_allocate_zeroed(context, tile_count);
-    bool ready = task->tiles != NULL;
-    if (ready && plan->fine_samples > 0) {
-        task->varied = (unsigned char *)mt_allocate(context, pixels);
-        ready = task->varied != NULL;
-    }
-    if (!ready || !plan->has_followers) {
-        return ready ? MT_OK : mt_context_error(context)->status;
-    }
     int part = mt_part_begin(context, "stack of rays", "mirrors or glass: so many rays wait in each thread at most");
     task->stacks =
         (unsigned char *)mt_allocate_array(context, task->thread_count, mt_scene_stack_size(plan->depth_limit));
-    task->stack_taken = (unsigned char *)mt_allocate_zeroed(context, task->thread_count);
     mt_part_end(context, part);
-    return task->stacks && task->stack_taken ? MT_OK : mt_context_error(context)->status;
+    return task->stacks ? MT_OK : mt_context_error(context)->status;
 }
 
-mt_status mt_scene_draw(mt_context *context, mt_scene_plan *plan, mt_image *image, mt_scene_report *report)
+static mt_status make_room(mt_context *context, const mt_scene_plan *plan, draw_task *task, size_t tile_count)
+{
+    task->tiles = (unsigned char *)mt_allocate_zeroed(context, tile_count);
+    task->taken = (unsigned char *)mt_allocate_zeroed(context, task->thread_count);
+    bool ready = task->tiles && task->taken;
+    if (ready && plan->fine_samples > 0) {
+        task->varied = (unsigned char *)mt_allocate_array(context, task->image->width, task->image->height);
+        ready = task->varied != NULL;
+    }
+    mt_status status = ready ? MT_OK : mt_context_error(context)->status;
+    if (status == MT_OK && plan->has_followers) {
+        status = make_stacks(context, plan, task);
+    }
+    return status == MT_OK && task->world ? make_canvases(context, task) : status;
+}
+
+mt_status mt_scene_draw(mt_context *context, mt_scene_plan *plan, const mt_scene_world *world, mt_image *image,
+                        mt_scene_report *report)
 {
     draw_task task = {.plan = plan,
                       .image = image,
+                      .world = world,
                       .sampling = mt_sampling_make(plan->samples),
                       .thread_count = mt_context_thread_count(context)};
     size_t tile_count = tile_count_of(&plan->camera);
@@ -263,10 +337,11 @@ mt_status mt_scene_draw(mt_context *context, mt_scene_plan *plan, mt_image *imag
     if (status == MT_OK && plan->fine_samples > 0) {
         status = refine(context, plan, &task, tile_count);
     }
+    release_canvases(context, &task);
     mt_free(context, task.tiles);
     mt_free(context, task.varied);
     mt_free(context, task.stacks);
-    mt_free(context, task.stack_taken);
+    mt_free(context, task.taken);
     *report = task.rays;
     return status;
 }

@@ -75,6 +75,9 @@ static mt_status make_parts(mt_context *context, mt_scene_plan *plan)
     for (mt_index i = 0; i < plan->part_count; i++) {
         const mt_scene_mesh *source = i < scene->mesh_count ? &scene->meshes[i] : &loose;
         mt_scene_part_init(source, &plan->options, &plan->parts[i]);
+        if (plan->parts[i].bounds.finite_count == 0) {
+            return mt_fail(context, MT_ERROR_INVALID_MESH, "the scene's mesh %u has no finite vertex", i);
+        }
     }
     return MT_OK;
 }

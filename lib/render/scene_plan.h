@@ -16,8 +16,7 @@ typedef struct mt_scene_plan {
     unsigned samples, fine_samples; /* fine: where the picture changes; 0: as everywhere */
     bool has_shadows;               /* a light casts some, and something can catch them */
     bool has_glass;
-    bool has_followers;       /* rays follow the first: mirrors or glass */
-    bool by_raster, by_baked; /* how primary rays find meshes: see scene_first.h */
+    bool has_followers; /* rays follow the first: mirrors or glass */
     mt_index plane_count;
     struct mt_scene_plane {
         mt_plane plane; /* its normal a unit vector */

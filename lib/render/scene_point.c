@@ -10,13 +10,12 @@ static void flip(mt_scene_point *point)
     point->normal = mt_vec3_scale(point->normal, -1.0);
 }
 
-/* Two directions along the plane, fixed by its normal. */
+/* Two directions along the plane: x and z of a floor, x and y of a wall across z. */
 static void plane_axes(mt_vec3 n, mt_vec3 *u, mt_vec3 *v)
 {
     bool is_flat = fabs(n.y) >= fabs(n.x) && fabs(n.y) >= fabs(n.z);
-    mt_vec3 aside = is_flat ? mt_vec3_make(0, 0, 1) : mt_vec3_make(0, 1, 0);
-    *u = mt_unit(mt_vec3_cross(n, aside));
-    *v = mt_vec3_cross(*u, n);
+    *u = mt_unit(is_flat ? mt_vec3_cross(n, mt_vec3_make(0, 0, 1)) : mt_vec3_cross(mt_vec3_make(0, 1, 0), n));
+    *v = is_flat ? mt_vec3_cross(*u, n) : mt_vec3_cross(n, *u);
 }
 
 /* Squares around the plane's point; far away, where rounding leaves nothing of them, the first colour. */
