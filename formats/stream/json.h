@@ -45,8 +45,8 @@ mt_json_node mt_json_root(const char *name, const mt_json *json);
 /* The same, and failures name line and column too: those of the value, or of what it is missing from. The text is the
  * one that was parsed, and outlives the node. */
 mt_json_node mt_json_root_of_text(const char *name, const mt_json *json, const void *bytes, size_t size);
-/* The byte of the text at which a value begins, or its key; what it is missing from, when it is not there. */
-size_t mt_json_offset(const char *text, size_t size, const mt_json_node *node, bool at_key);
+/* The byte of the text at which a value begins; what it is missing from, when it is not there. */
+size_t mt_json_offset(const char *text, size_t size, const mt_json_node *node);
 /* Line and column of a byte. */
 mt_place mt_json_place(const char *name, const char *text, size_t size, size_t at);
 /* The member with that key; its value is NULL when there is none, or the parent is no object. */

@@ -89,7 +89,7 @@ mt_status mt_json_fail(mt_context *context, const mt_json_node *node, mt_status 
     va_end(arguments);
     mt_json_path(node, path);
     if (root->text) {
-        place = mt_json_place(root->key, root->text, root->size, mt_json_offset(root->text, root->size, node, false));
+        place = mt_json_place(root->key, root->text, root->size, mt_json_offset(root->text, root->size, node));
     }
     return mt_fail_at(context, status, place, "%s: %s", path, sentence);
 }

@@ -50,8 +50,8 @@ static bool next(scan *s)
     return more;
 }
 
-/* From the opening bracket to the member or element; at its key where at_key. False: it is not there. */
-static bool step(scan *s, const mt_json_node *node, bool at_key)
+/* From the opening bracket to the value of the member or element. False: it is not there. */
+static bool step(scan *s, const mt_json_node *node)
 {
     size_t index = 0, length = node->key ? strlen(node->key) : 0;
     s->at++;
@@ -66,7 +66,6 @@ static bool step(scan *s, const mt_json_node *node, bool at_key)
             s->at += s->at < s->end; /* the colon */
             skip_space(s);
             if (is_it) {
-                s->at = at_key ? key : s->at;
                 return true;
             }
         } else if (index == node->index) {
@@ -82,12 +81,11 @@ static bool step(scan *s, const mt_json_node *node, bool at_key)
     }
 }
 
-size_t mt_json_offset(const char *text, size_t size, const mt_json_node *node, bool at_key)
+size_t mt_json_offset(const char *text, size_t size, const mt_json_node *node)
 {
     const mt_json_node *path[DEEPEST_PATH];
-    size_t count = 0, skipped = 0;
+    size_t count = 0;
     for (const mt_json_node *n = node; n->parent; n = n->parent) {
-        skipped += count == DEEPEST_PATH;
         count += count < DEEPEST_PATH;
         memmove(path + 1, path, (count - 1) * sizeof *path);
         path[0] = n;
@@ -100,7 +98,7 @@ size_t mt_json_offset(const char *text, size_t size, const mt_json_node *node, b
     for (size_t i = 0; i < count; i++) {
         scan before = s;
         bool opens = s.at < s.end && strchr("{[", *s.at);
-        if (!opens || !path[i]->parent->value || !step(&s, path[i], at_key && skipped == 0 && i + 1 == count)) {
+        if (!opens || !path[i]->parent->value || !step(&s, path[i])) {
             s = before;
             break;
         }

@@ -111,7 +111,8 @@ static bool weigh_colors(const mt_scene_part *part, mt_index triangle, const dou
     return true;
 }
 
-mt_part_point mt_scene_part_point(const mt_scene_part *part, mt_index triangle, const double weights[3])
+mt_part_point mt_scene_part_point(const mt_scene_part *part, mt_index triangle, const double weights[3],
+                                  mt_vec3 direction)
 {
     const mt_mesh *mesh = part->source.mesh;
     const mt_triangulation *triangulation = &part->model.triangulation;
@@ -128,8 +129,12 @@ mt_part_point mt_scene_part_point(const mt_scene_part *part, mt_index triangle, 
         normals[i] = mt_vec3_max_abs(normals[i]) > 0 ? mt_facing(normals[i], point.face_normal) : point.face_normal;
     }
     point.position = mt_weigh(corners.corners, weights);
-    point.lifted = mt_lifted_position(point.position, corners.corners, normals, weights);
     point.normal = mt_unit_or(mt_weigh(normals, weights), point.face_normal);
+    double side = mt_vec3_dot(point.face_normal, direction) > 0 ? -1.0 : 1.0;
+    for (int i = 0; i < 3; i++) {
+        normals[i] = mt_vec3_scale(normals[i], side);
+    }
+    point.lifted = mt_lifted_position(point.position, corners.corners, normals, weights);
     point.has_color = part->has_colors && weigh_colors(part, triangle, weights, &point.color);
     return point;
 }

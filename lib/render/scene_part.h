@@ -35,15 +35,16 @@ void mt_scene_part_release(mt_context *context, mt_scene_part *part);
 mt_ray_hit mt_scene_part_nearest(const mt_scene_part *part, const mt_ray *ray);
 bool mt_scene_part_any(const mt_scene_part *part, const mt_ray *ray);
 
-/* A point of a triangle of a part, in the mesh's coordinates. */
+/* A point of a triangle of a part, and the direction of the ray that met it, in the mesh's coordinates. */
 typedef struct mt_part_point {
     mt_vec3 position;
-    mt_vec3 lifted;      /* on the surface that the normals make believe */
+    mt_vec3 lifted;      /* on the surface that the normals make believe, on the side that the ray came from */
     mt_vec3 face_normal; /* of the front, of any length */
     mt_vec3 normal;      /* shading; on the front's side */
     mt_vec3 color;
     bool has_color;
 } mt_part_point;
-mt_part_point mt_scene_part_point(const mt_scene_part *part, mt_index triangle, const double weights[3]);
+mt_part_point mt_scene_part_point(const mt_scene_part *part, mt_index triangle, const double weights[3],
+                                  mt_vec3 direction);
 
 #endif

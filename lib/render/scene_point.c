@@ -29,24 +29,23 @@ static mt_vec3 checker_color(const mt_plane *plane, const mt_material *material,
     return isfinite(sum) && sum - 2.0 * half != 0 ? material->checker_color : material->color;
 }
 
-static void point_on_mesh(const mt_scene_plan *plan, const mt_scene_hit *hit, mt_scene_point *point)
+static void point_on_mesh(const mt_scene_plan *plan, const mt_scene_ray *ray, const mt_scene_hit *hit,
+                          mt_scene_point *point)
 {
     const mt_scene_object *object = &plan->scene->objects[hit->object];
-    mt_part_point found = mt_scene_part_point(mt_scene_part_of(plan, hit->object), hit->triangle, hit->weights);
-    point->position = found.position;
-    point->lifted = found.lifted;
-    point->normal = found.normal;
-    point->face_normal = found.face_normal;
+    const mt_scene_part *part = mt_scene_part_of(plan, hit->object);
+    const mt_transform identity = mt_transform_identity();
+    bool is_placed = object->kind == MT_OBJECT_MESH;
+    const mt_transform *transform = is_placed ? &object->shape.transform : &identity;
+    mt_transform inverse = is_placed ? mt_scene_inverse(plan, hit->object) : identity;
+    mt_vec3 direction = mt_transform_direction(&inverse, ray->direction);
+    mt_part_point found = mt_scene_part_point(part, hit->triangle, hit->weights, direction);
+    point->position = mt_transform_point(transform, found.position);
+    point->lifted = mt_transform_point(transform, found.lifted);
+    point->normal = mt_unit(mt_transform_normal(&inverse, found.normal));
+    point->face_normal = mt_unit(mt_transform_normal(&inverse, found.face_normal));
     if (found.has_color) {
         point->color = found.color;
-    }
-    if (object->kind == MT_OBJECT_MESH) {
-        const mt_transform *transform = &object->shape.transform;
-        mt_transform inverse = mt_scene_inverse(plan, hit->object);
-        point->position = mt_transform_point(transform, found.position);
-        point->lifted = mt_transform_point(transform, found.lifted);
-        point->normal = mt_unit(mt_transform_normal(&inverse, found.normal));
-        point->face_normal = mt_unit(mt_transform_normal(&inverse, found.face_normal));
     }
 }
 
@@ -66,7 +65,7 @@ mt_scene_point mt_scene_point_make(const mt_scene_plan *plan, const mt_scene_ray
     } else if (object->kind == MT_OBJECT_SPHERE) {
         point.face_normal = point.normal = mt_sphere_normal(&object->shape.sphere, point.position);
     } else {
-        point_on_mesh(plan, hit, &point);
+        point_on_mesh(plan, ray, hit, &point);
     }
     bool by_formula = object->kind == MT_OBJECT_PLANE || object->kind == MT_OBJECT_SPHERE;
     point.lifted = by_formula ? point.position : point.lifted;

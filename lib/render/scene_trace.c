@@ -300,12 +300,13 @@ static bool hits_front(const mt_scene_plan *plan, const mt_scene_ray *ray, const
         mt_vec3 p = mt_vec3_add(ray->origin, mt_vec3_scale(ray->direction, hit->t));
         return mt_vec3_dot(mt_sphere_normal(&object->shape.sphere, p), ray->direction) < 0;
     }
-    mt_part_point point = mt_scene_part_point(mt_scene_part_of(plan, hit->object), hit->triangle, hit->weights);
     mt_vec3 direction = ray->direction;
     if (object->kind == MT_OBJECT_MESH) {
         mt_transform inverse = mt_scene_inverse(plan, hit->object);
         direction = mt_transform_direction(&inverse, direction);
     }
+    const mt_scene_part *part = mt_scene_part_of(plan, hit->object);
+    mt_part_point point = mt_scene_part_point(part, hit->triangle, hit->weights, direction);
     return mt_vec3_dot(point.face_normal, direction) < 0;
 }
 

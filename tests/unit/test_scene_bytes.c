@@ -102,7 +102,7 @@ static void threads_do_not_matter(void **state)
 static void the_bytes_are_known(void **state)
 {
     (void)state;
-    const uint64_t expected = 0xde573d2743453c50u;
+    const uint64_t expected = 0xb80563be6b1e1b03u;
     mt_context *context = test_context();
     meshes m = make_meshes(context);
     test_scene s;
