@@ -14,8 +14,8 @@
 
 /* Steps a triangle; small meshes get more, as they can afford it: with STEPS_SMALL / triangles more. Fewer: longer
  * strips stay unfound; more: time grows in proportion. */
-#define STEPS 100.0
-#define STEPS_SMALL 4e6
+#define STEPS 60.0
+#define STEPS_SMALL 2e6
 #define STEPS_MAXIMUM 4000.0
 
 /* Indices that a step may cost at the beginning and at the end, in the sense of exp(-price / temperature). Hotter than
@@ -23,7 +23,13 @@
 #define TEMPERATURE_FIRST 0.6
 #define TEMPERATURE_LAST 0.12
 
-#define BLOCK 16384     /* steps at one temperature */
+/* Sweeps over the mesh, each at one temperature and window after window, so that what a step looks at is in the cache.
+ * Smaller windows: runs across their borders wait longer; larger ones: a mesh of a million triangles takes twice as
+ * long. */
+#define SWEEP_COUNT 64
+#define WINDOW_SHIFT 15
+#define WINDOW (1u << WINDOW_SHIFT)
+
 #define PRICE_ROOM 32   /* no step costs as much */
 #define END_SHARE 0.85  /* of steps that begin at the end of a run, where most gain is */
 #define MOVED_MAXIMUM 4 /* triangles whose links a step changes */
@@ -32,9 +38,10 @@ typedef struct annealer {
     const strip_graph *graph;
     const strip_prices *prices;
     uint8_t *links;
-    mt_index *ends; /* triangles with fewer than two links */
+    mt_index *ends; /* triangles with fewer than two links, those of each window from its first triangle's number on */
     mt_index *end_places;
-    mt_index end_count;
+    mt_index *end_counts;                       /* of each window */
+    mt_index window, window_begin, window_size; /* where steps begin now */
     uint64_t random;
     uint64_t chances[PRICE_ROOM]; /* of taking a step that costs so much, of 2^32 */
 } annealer;
@@ -66,13 +73,15 @@ static mt_index scale(uint32_t bits, mt_index limit)
 
 static void add_end(annealer *state, mt_index triangle)
 {
-    state->end_places[triangle] = state->end_count;
-    state->ends[state->end_count++] = triangle;
+    mt_index window = triangle >> WINDOW_SHIFT, place = (window << WINDOW_SHIFT) + state->end_counts[window]++;
+    state->end_places[triangle] = place;
+    state->ends[place] = triangle;
 }
 
 static void remove_end(annealer *state, mt_index triangle)
 {
-    mt_index place = state->end_places[triangle], last = state->ends[--state->end_count];
+    mt_index window = triangle >> WINDOW_SHIFT, place = state->end_places[triangle];
+    mt_index last = state->ends[(window << WINDOW_SHIFT) + --state->end_counts[window]];
     state->ends[place] = last;
     state->end_places[last] = place;
     state->end_places[triangle] = MT_NONE;
@@ -211,10 +220,10 @@ static void attempt(annealer *state, const strip_move *move, strip_side linked, 
 static void step(annealer *state)
 {
     uint64_t first = draw(state), second = draw(state);
-    bool from_end = (uint32_t)first < (uint32_t)(END_SHARE * 4294967296.0) && state->end_count;
-    uint32_t bits = (uint32_t)(first >> 32);
-    mt_index triangle =
-        from_end ? state->ends[scale(bits, state->end_count)] : scale(bits, state->graph->triangle_count);
+    mt_index end_count = state->end_counts[state->window];
+    bool from_end = (uint32_t)first < (uint32_t)(END_SHARE * 4294967296.0) && end_count;
+    mt_index chosen = state->window_begin + scale((uint32_t)(first >> 32), from_end ? end_count : state->window_size);
+    mt_index triangle = from_end ? state->ends[chosen] : chosen;
     unsigned links = state->links[triangle], place = scale((uint32_t)(second & 0xffffu) << 16, 3);
     strip_side side = 4 * triangle + place, other = state->graph->across[side];
     strip_move move = {0};
@@ -241,24 +250,35 @@ static void set_temperature(annealer *state, double share)
     }
 }
 
-static uint64_t choose_block_count(mt_index triangle_count)
+/* Steps a triangle in one sweep. */
+static double choose_steps(mt_index triangle_count)
 {
     double steps = STEPS + STEPS_SMALL / ((double)triangle_count + 1.0);
-    steps = steps < STEPS_MAXIMUM ? steps : STEPS_MAXIMUM;
-    return (uint64_t)(steps * triangle_count / BLOCK) + 1;
+    return (steps < STEPS_MAXIMUM ? steps : STEPS_MAXIMUM) / SWEEP_COUNT;
 }
 
-static mt_status anneal(mt_context *context, annealer *state)
+static mt_status anneal_window(mt_context *context, annealer *state, double steps, double share)
 {
-    uint64_t block_count = choose_block_count(state->graph->triangle_count);
+    mt_index left = state->graph->triangle_count - state->window_begin;
+    state->window_size = left < WINDOW ? left : WINDOW;
+    uint64_t count = (uint64_t)(steps * state->window_size) + 1;
+    for (uint64_t i = 0; i < count; i++) {
+        step(state);
+    }
+    return mt_progress(context, "strips", share);
+}
+
+static mt_status anneal(mt_context *context, annealer *state, mt_index window_count)
+{
+    double steps = choose_steps(state->graph->triangle_count);
     mt_status status = MT_OK;
-    for (uint64_t block = 0; status == MT_OK && block < block_count; block++) {
-        double share = (double)block / (double)block_count;
-        set_temperature(state, share);
-        for (int i = 0; i < BLOCK; i++) {
-            step(state);
+    for (int sweep = 0; status == MT_OK && sweep < SWEEP_COUNT; sweep++) {
+        set_temperature(state, (double)sweep / SWEEP_COUNT);
+        for (mt_index window = 0; status == MT_OK && window < window_count; window++) {
+            state->window = window;
+            state->window_begin = window << WINDOW_SHIFT;
+            status = anneal_window(context, state, steps, (sweep + (double)window / window_count) / SWEEP_COUNT);
         }
-        status = mt_progress(context, "strips", share);
     }
     return status;
 }
@@ -267,17 +287,21 @@ mt_status mt_strip_cover_anneal(mt_context *context, const strip_graph *graph, c
                                 uint8_t *links)
 {
     annealer state = {.graph = graph, .prices = prices, .links = links};
+    mt_index window_count = (graph->triangle_count + (WINDOW - 1)) >> WINDOW_SHIFT;
     state.ends = mt_allocate_array(context, graph->triangle_count, sizeof(mt_index));
     state.end_places = mt_allocate_array(context, graph->triangle_count, sizeof(mt_index));
-    mt_status status = state.ends && state.end_places ? MT_OK : mt_context_error(context)->status;
+    state.end_counts = mt_allocate_array_zeroed(context, window_count, sizeof(mt_index));
+    bool allocated = state.ends && state.end_places && state.end_counts;
+    mt_status status = allocated ? MT_OK : mt_context_error(context)->status;
     if (status == MT_OK && graph->triangle_count > 1) {
         memset(state.end_places, 0xff, graph->triangle_count * sizeof(mt_index));
         for (mt_index t = 0; t < graph->triangle_count; t++) {
             renew_end(&state, t);
         }
-        status = anneal(context, &state);
+        status = anneal(context, &state, window_count);
     }
     mt_free(context, state.ends);
     mt_free(context, state.end_places);
+    mt_free(context, state.end_counts);
     return status;
 }
