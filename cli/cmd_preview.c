@@ -152,8 +152,10 @@ static const cli_option options[] = {
      .offset = SETTING(acceleration),
      .parse = preview_parse_acceleration,
      .argument = "KIND",
-     .expects = "auto, none or aabb (obb, grid and bsp are not built yet)",
-     .help = "what rays search: none, an aabb tree; auto: a tree for more than 64 triangles"},
+     .expects = "auto, none, aabb, obb, grid or bsp",
+     .help =
+         "what rays search: none, a tree of boxes (aabb), of turned ones (obb), a grid, a bsp tree; the same picture; "
+         "auto: aabb for more than 64 triangles"},
     {.name = "triangle-test",
      .offset = SETTING(test),
      .parse = cli_parse_choice,

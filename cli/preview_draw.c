@@ -24,7 +24,8 @@ static const struct {
 static const struct {
     const char *name;
     mt_acceleration value;
-} accelerations[] = {{"auto", MT_ACCELERATION_AUTO}, {"none", MT_ACCELERATION_NONE}, {"aabb", MT_ACCELERATION_AABB}};
+} accelerations[] = {{"auto", MT_ACCELERATION_AUTO}, {"none", MT_ACCELERATION_NONE}, {"aabb", MT_ACCELERATION_AABB},
+                     {"obb", MT_ACCELERATION_OBB},   {"grid", MT_ACCELERATION_GRID}, {"bsp", MT_ACCELERATION_BSP}};
 
 bool preview_parse_coloring(const cli_option *option, const char *text, void *value)
 {

@@ -44,15 +44,27 @@ static mt_status make_normals(mt_context *context, mt_preview_series *series)
     return status;
 }
 
+/* What rays search. */
+static mt_ray_structure_kind choose_structure(const mt_preview_options *options, mt_index count)
+{
+    static const mt_ray_structure_kind kinds[] = {
+        [MT_ACCELERATION_NONE] = MT_RAY_STRUCTURE_NONE, [MT_ACCELERATION_AABB] = MT_RAY_STRUCTURE_AABB,
+        [MT_ACCELERATION_OBB] = MT_RAY_STRUCTURE_OBB,   [MT_ACCELERATION_GRID] = MT_RAY_STRUCTURE_GRID,
+        [MT_ACCELERATION_BSP] = MT_RAY_STRUCTURE_BSP,
+    };
+    if (options->acceleration == MT_ACCELERATION_AUTO) {
+        return count > FEW_TRIANGLES ? MT_RAY_STRUCTURE_AABB : MT_RAY_STRUCTURE_NONE;
+    }
+    return kinds[options->acceleration];
+}
+
 /* Why there is a tree, or none. */
 static mt_status make_occluder(mt_context *context, mt_preview_series *series)
 {
     const mt_preview_options *options = &series->options;
     series->by_rays = options->method == MT_METHOD_RAY;
     series->has_occluder = series->by_rays || options->shadows;
-    mt_index count = series->model.triangulation.triangle_count;
-    bool tree = options->acceleration == MT_ACCELERATION_AABB ||
-                (options->acceleration == MT_ACCELERATION_AUTO && count > FEW_TRIANGLES);
+    mt_ray_structure_kind kind = choose_structure(options, series->model.triangulation.triangle_count);
     if (!options->shadows) {
         mt_part_skip(context, "shadow rays", "no shadows asked for");
     }
@@ -60,13 +72,13 @@ static mt_status make_occluder(mt_context *context, mt_preview_series *series)
         mt_part_skip(context, "tree", "primary rays only: triangles go to the pixels that they cover");
         return MT_OK;
     }
-    if (!tree) {
+    if (kind == MT_RAY_STRUCTURE_NONE) {
         mt_part_skip(context, "tree",
                      options->acceleration == MT_ACCELERATION_NONE
                          ? "asked to do without: every ray meets every triangle"
                          : "few triangles: every ray meets them all");
     }
-    return mt_occluder_init(context, &series->model, (mt_ray_profile)options->triangle_test, tree, &series->occluder);
+    return mt_occluder_init(context, &series->model, (mt_ray_profile)options->triangle_test, kind, &series->occluder);
 }
 
 static mt_status build(mt_context *context, const mt_mesh *mesh, mt_preview_series *series)
@@ -304,7 +316,7 @@ static mt_status measure_skipped(mt_context *context, job *j)
     if (!series->has_occluder) {
         int part = mt_part_begin_skipped(context, "tree", "what a tree of boxes would have taken");
         mt_ray_profile profile = (mt_ray_profile)series->options.triangle_test;
-        status = mt_occluder_init(context, &series->model, profile, true, &own);
+        status = mt_occluder_init(context, &series->model, profile, MT_RAY_STRUCTURE_AABB, &own);
         mt_part_end(context, part);
         occluder = &own;
     }

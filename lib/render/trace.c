@@ -19,15 +19,12 @@ static void fill_positions(void *user, uint64_t begin, uint64_t end)
     }
 }
 
-mt_status mt_occluder_init(mt_context *context, const mt_model *model, mt_ray_profile profile, bool with_tree,
-                           mt_occluder *occluder)
+mt_status mt_occluder_init(mt_context *context, const mt_model *model, mt_ray_profile profile,
+                           mt_ray_structure_kind kind, mt_occluder *occluder)
 {
     memset(occluder, 0, sizeof *occluder);
     occluder->model = model;
     occluder->profile = profile;
-    if (!with_tree) {
-        return MT_OK;
-    }
     mt_mesh *mesh = &occluder->mesh;
     mesh->vertex_count = model->mesh->vertex_count;
     mesh->face_count = model->mesh->face_count;
@@ -40,7 +37,7 @@ mt_status mt_occluder_init(mt_context *context, const mt_model *model, mt_ray_pr
         return mt_context_error(context)->status;
     }
     mt_parallel_for(context, mesh->vertex_count, VERTEX_BLOCK, fill_positions, occluder);
-    mt_status status = mt_surface_tree_create(context, mesh, &model->triangulation, NULL, &occluder->tree);
+    mt_status status = mt_ray_structure_create(context, mesh, &model->triangulation, kind, &occluder->structure);
     if (status != MT_OK) {
         mt_occluder_release(context, occluder);
     }
@@ -49,40 +46,14 @@ mt_status mt_occluder_init(mt_context *context, const mt_model *model, mt_ray_pr
 
 void mt_occluder_release(mt_context *context, mt_occluder *occluder)
 {
-    mt_surface_tree_destroy(context, occluder->tree);
+    mt_ray_structure_destroy(context, occluder->structure);
     mt_free(context, occluder->mesh.positions);
     memset(occluder, 0, sizeof *occluder);
 }
 
-static mt_ray_hit nearest_of_all(const mt_occluder *occluder, const mt_ray *ray)
-{
-    const mt_model *model = occluder->model;
-    mt_ray_setup setup;
-    mt_ray_setup_init(&model->space, ray, occluder->profile, &setup);
-    mt_ray_hit best = mt_ray_no_hit(), hit;
-    for (mt_index triangle = 0; triangle < model->triangulation.triangle_count; triangle++) {
-        if (mt_hit(model, &setup, triangle, &hit) && mt_ray_hit_is_nearer(&hit, &best)) {
-            best = hit;
-        }
-    }
-    return best;
-}
-
-static mt_ray_hit nearest(const mt_occluder *occluder, const mt_ray *ray)
-{
-    mt_ray_hit hit;
-    if (!occluder->tree) {
-        return nearest_of_all(occluder, ray);
-    }
-    return mt_surface_tree_nearest_hit(occluder->tree, ray, occluder->profile, &hit) ? hit : mt_ray_no_hit();
-}
-
 bool mt_occluder_hides(const mt_occluder *occluder, const mt_ray *ray)
 {
-    if (!occluder->tree) {
-        return nearest_of_all(occluder, ray).triangle != MT_NONE;
-    }
-    return mt_surface_tree_any_hit(occluder->tree, ray, occluder->profile);
+    return mt_ray_structure_any_hit(occluder->structure, ray, occluder->profile);
 }
 
 static void trace_pixel(const mt_frame *frame, const mt_occluder *occluder, mt_tile *tile, uint32_t x, uint32_t y)
@@ -95,7 +66,8 @@ static void trace_pixel(const mt_frame *frame, const mt_occluder *occluder, mt_t
             continue;
         }
         const mt_ray ray = mt_hit_ray(mt_frame_ray(frame, x, y, lane));
-        mt_ray_hit hit = nearest(occluder, &ray);
+        mt_ray_hit hit;
+        mt_ray_structure_nearest_hit(occluder->structure, &ray, occluder->profile, &hit);
         tile->numbers[first + lane] = hit.triangle;
     }
 }

@@ -50,9 +50,14 @@ for test in fast exact; do
   draws ray --triangle-test "$test" --method ray
   same raster ray
 done
-draws tree --method ray --accel aabb
+for structure in aabb obb grid bsp; do
+  for test in watertight exact; do
+    draws raster --triangle-test "$test" --method raster --shadows
+    draws searched --triangle-test "$test" --method ray --shadows --accel "$structure"
+    same raster searched
+  done
+done
 draws one_thread --threads 1
-same plain tree
 same plain one_thread
 run 0 preview "$root/meshes/valid/cube.off" -o tried.ppm --size 32x32 --method ray --accel none
 run 0 preview "$root/meshes/valid/cube.off" -o drawn.ppm --size 32x32
@@ -88,6 +93,16 @@ says 'saved    a ray for each sample'
 says 'saved    shadow rays'
 run 0 preview teapot.obj -o x.png --size 32x32 --shadows --explain
 says 'built    surface tree'
+while read -r structure part; do
+  run 0 preview teapot.obj -o x.png --size 32x32 --shadows --explain --accel "$structure"
+  says "built    $part"
+done <<'END'
+none packed triangles
+aabb surface tree
+obb oriented boxes
+grid uniform grid
+bsp BSP tree
+END
 run 0 preview "$root/meshes/valid/cube.off" -o x.png --size 32x32 --shadows --explain
 says 'few triangles'
 run 0 preview teapot.obj -o x.png --size 32x32 --scale-bar --json
@@ -98,13 +113,13 @@ says 'the scale bar is 1 long'
 # What is refused, before anything is read or written.
 for wrong in "--projection fisheye" "--view above" "--up 0,0,0" "--up x" "--eye 1,2" "--eye 1,nan,2" "--target a,b,c" \
   "--fov 0" "--fov 180" "--fov -1" "--samples 5" "--samples 100" "--shading gouraud" "--crease 181" "--color-by red" \
-  "--method both" "--accel obb" "--accel grid" "--accel bsp" "--triangle-test quick" "--turntable 1" \
+  "--method both" "--accel octree" "--triangle-test quick" "--turntable 1" \
   "--turntable x" "--size 0x5" "--size 70000x5" "--background 1,2" "--background 256,0,0"; do
   # shellcheck disable=SC2086
   run 2 preview none.obj -o wrong.png $wrong
 done
-run 2 preview none.obj -o wrong.png --accel grid
-says 'not built yet'
+run 2 preview none.obj -o wrong.png --accel octree
+says 'none, aabb, obb, grid or bsp'
 holds 'nothing was written' test ! -e wrong.png
 
 # Never a blank picture without a word.

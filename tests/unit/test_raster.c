@@ -77,14 +77,14 @@ static mt_index list_triangles(const scene *s, uint32_t x, uint32_t y, mt_index 
 }
 
 /* Compares the two orders in every sample; returns how many samples show something. */
-static size_t compare_orders(const scene *s, bool with_tree)
+static size_t compare_orders(const scene *s, mt_ray_structure_kind kind)
 {
     mt_tile raster, rays;
     mt_occluder all;
     mt_index *listed = malloc(s->model.triangulation.triangle_count * sizeof *listed);
     assert_true(mt_tile_init(s->context, &s->frame, false, &raster) &&
                 mt_tile_init(s->context, &s->frame, false, &rays));
-    assert_int_equal(mt_occluder_init(s->context, &s->model, s->frame.profile, with_tree, &all), MT_OK);
+    assert_int_equal(mt_occluder_init(s->context, &s->model, s->frame.profile, kind, &all), MT_OK);
     size_t seen = 0, different = 0;
     for (uint32_t t = 0; t < TILES * TILES; t++) {
         mt_tile_place(&raster, &s->frame.camera, t);
@@ -150,7 +150,7 @@ static void both_orders_agree(void **state)
             scene s;
             scene_begin(&s, context, random_triangles(context, 60, seed), projection, profiles[seed % 3],
                         samples[seed % 4], NULL);
-            assert_true(compare_orders(&s, seed % 2 == 0) > SIZE * SIZE / 20);
+            assert_true(compare_orders(&s, (mt_ray_structure_kind)(seed % MT_RAY_STRUCTURE_COUNT)) > SIZE * SIZE / 20);
             scene_end(&s);
         }
     }
@@ -174,7 +174,7 @@ static void an_eye_inside_sees_the_same(void **state)
         }
         scene s;
         scene_begin(&s, context, mesh, 0, profiles[seed % 3], 4, &eye);
-        assert_true(compare_orders(&s, seed % 2 == 0) > 0);
+        assert_true(compare_orders(&s, (mt_ray_structure_kind)(seed % MT_RAY_STRUCTURE_COUNT)) > 0);
         scene_end(&s);
     }
     test_context_end(context);
@@ -199,7 +199,7 @@ static void closed_meshes_have_no_holes(void **state)
             for (size_t k = 0; k < sizeof eyes / sizeof *eyes; k++) {
                 scene s;
                 scene_begin(&s, context, generate(context, names[i]), 0, profiles[profile], 16, &eyes[k]);
-                assert_int_equal(compare_orders(&s, true), SIZE * SIZE * 16);
+                assert_int_equal(compare_orders(&s, MT_RAY_STRUCTURE_AABB), SIZE * SIZE * 16);
                 scene_end(&s);
             }
         }
@@ -225,7 +225,7 @@ static void duplicates_go_to_the_lowest(void **state)
     memcpy(mesh->corner_vertices + 3 * (size_t)count, ball->corner_vertices, 3 * (size_t)count * sizeof(mt_index));
     scene s;
     scene_begin(&s, context, mesh, 0, MT_RAY_WATERTIGHT, 4, NULL);
-    assert_true(compare_orders(&s, true) > 0);
+    assert_true(compare_orders(&s, MT_RAY_STRUCTURE_AABB) > 0);
     mt_tile tile;
     assert_true(mt_tile_init(context, &s.frame, false, &tile));
     mt_tile_place(&tile, &s.frame.camera, 0);

@@ -59,9 +59,12 @@ typedef enum mt_visibility_method {
 } mt_visibility_method;
 
 typedef enum mt_acceleration {
-    MT_ACCELERATION_AUTO, /* a tree where there are rays to trace and more than a few triangles */
+    MT_ACCELERATION_AUTO, /* AABB where there are rays to trace and more than a few triangles */
     MT_ACCELERATION_NONE, /* every ray against every triangle */
-    MT_ACCELERATION_AABB
+    MT_ACCELERATION_AABB, /* and the other structures of meshtool/ray_structure.h: the same picture */
+    MT_ACCELERATION_OBB,
+    MT_ACCELERATION_GRID,
+    MT_ACCELERATION_BSP
 } mt_acceleration;
 
 /* The largest picture: pixels on a side. */
