@@ -91,6 +91,17 @@ const char *mt_image_format_left_out(const char *extension)
     return NULL;
 }
 
+/* Writes all bytes; when that fails the output is gone. */
+static mt_status write_or_abandon(mt_context *context, const mt_image_format *format, const mt_image *image,
+                                  const mt_image_write_options *options, mt_output *output)
+{
+    mt_status status = format->write(context, image, options, output);
+    if (status != MT_OK) {
+        mt_output_abandon(context, output);
+    }
+    return status;
+}
+
 mt_status mt_image_write_file(mt_context *context, const mt_image *image, const char *path,
                               const mt_image_write_options *options)
 {
@@ -103,12 +114,8 @@ mt_status mt_image_write_file(mt_context *context, const mt_image *image, const 
     if (status != MT_OK) {
         return status;
     }
-    status = format->write(context, image, options, output);
-    if (status != MT_OK) {
-        mt_output_abandon(context, output);
-        return status;
-    }
-    return mt_output_commit(context, output);
+    status = write_or_abandon(context, format, image, options, output);
+    return status == MT_OK ? mt_output_commit(context, output) : status;
 }
 
 mt_status mt_image_write_memory(mt_context *context, const mt_image *image, const mt_image_write_options *options,
@@ -125,10 +132,6 @@ mt_status mt_image_write_memory(mt_context *context, const mt_image *image, cons
     if (status != MT_OK) {
         return status;
     }
-    status = format->write(context, image, options, output);
-    if (status != MT_OK) {
-        mt_output_abandon(context, output);
-        return status;
-    }
-    return mt_output_take(context, output, bytes, size);
+    status = write_or_abandon(context, format, image, options, output);
+    return status == MT_OK ? mt_output_take(context, output, bytes, size) : status;
 }
