@@ -33,6 +33,11 @@ typedef struct corner_job {
     value_block *blocks;
 } corner_job;
 
+static bool is_same(mt_vec3 a, mt_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
 /* Numbers the values of one vertex from `first` on; returns the next number. */
 static mt_index number_values(const mt_crease_star *star, mt_vec3 *values, mt_index first, mt_index *indices,
                               mt_index *undefined)
@@ -41,7 +46,7 @@ static mt_index number_values(const mt_crease_star *star, mt_vec3 *values, mt_in
     for (mt_index i = 0; i < star->count; i++) {
         mt_vec3 n = star->corners[i].normal;
         mt_index least = count - first > VALUES_COMPARED ? count - VALUES_COMPARED : first, at = count;
-        while (at > least && memcmp(&values[at - 1], &n, sizeof n) != 0) {
+        while (at > least && !is_same(values[at - 1], n)) {
             at--;
         }
         if (at == least) {
