@@ -17,6 +17,9 @@
 /* Brings a distance rounded to float, and its comparison, to the safe side. */
 #define ABOVE 1.000001f
 
+/* Brings the squared distance of a box's farthest point to the safe side where doubles round more than floats do. */
+#define FAR_MARGIN 0x1p-80f
+
 /* What rounding takes from the float distance to an element, in units of the reach (1 + the point's largest
  * coordinate): corners and point round by half of 2^-24 each, the arithmetic by some more. */
 #define DISTANCE_MARGIN 0x1p-21f
@@ -27,7 +30,7 @@ typedef struct nearest_walk {
     mt_vec3 scaled;               /* the point times the space's scale */
     float low[3], high[3], at[3]; /* the point in space, rounded down, up, to nearest */
     float margin;
-    float limit; /* not below the best squared distance */
+    float limit; /* not below the squared distance of the nearest element, once one is sure to be within it */
     mt_index element;
     mt_element_distance best;
     double distance; /* of the best, in space */
@@ -36,8 +39,9 @@ typedef struct nearest_walk {
 /* Nothing farther counts from now on; several squares have the same root. */
 static void bound(nearest_walk *walk, double distance)
 {
+    float square = mt_round_up(distance * distance * (1 + 0x1p-50));
     walk->distance = distance;
-    walk->limit = mt_round_up(distance * distance * (1 + 0x1p-50));
+    walk->limit = square < walk->limit ? square : walk->limit;
 }
 
 static void keep(nearest_walk *walk, mt_index number, const mt_element_distance *found)
@@ -73,6 +77,26 @@ MT_INLINE uint32_t approach_children(const nearest_walk *walk, const mt_surface_
     return mt_bits_of(passes);
 }
 
+/* While no element is known, the farthest points of a node's boxes bound the distance: each box holds an element. That
+ * spares ordering children that cannot count. */
+MT_INLINE void bound_by_boxes(nearest_walk *walk, const mt_surface_node *node)
+{
+    float far[MT_WIDTH];
+    for (int lane = 0; lane < MT_WIDTH; lane++) {
+        float x = walk->high[0] - node->planes[0][lane], x2 = node->planes[1][lane] - walk->low[0];
+        float y = walk->high[1] - node->planes[2][lane], y2 = node->planes[3][lane] - walk->low[1];
+        float z = walk->high[2] - node->planes[4][lane], z2 = node->planes[5][lane] - walk->low[2];
+        x = x > x2 ? x : x2;
+        y = y > y2 ? y : y2;
+        z = z > z2 ? z : z2;
+        float square = (x * x + y * y + z * z) * ABOVE + FAR_MARGIN;
+        far[lane] = node->children[lane] == MT_SURFACE_UNUSED ? INFINITY : square;
+    }
+    for (int lane = 0; lane < MT_WIDTH; lane++) {
+        walk->limit = far[lane] < walk->limit ? far[lane] : walk->limit;
+    }
+}
+
 /* Squared distance from the origin to the side from a to b, where e = b - a. */
 MT_INLINE float side_square(float ax, float ay, float az, float ex, float ey, float ez)
 {
@@ -85,8 +109,10 @@ MT_INLINE float side_square(float ax, float ay, float az, float ex, float ey, fl
 }
 
 /* Lower bounds of the elements' distances, and bits of those not beyond the best: their float distance less what it may
- * be off. It is that of the foot unless that surely lies outside, which is never above the sides'. `wrong` is what the
- * normal may be off, by its own rounding and by that of the corners; slivers become candidates by it. */
+ * be off. Corners rounded to float, and relative to the point once more, are those of a triangle moved by less than the
+ * margin, and so is its distance; what is left is the rounding of sides and normal, relative to them, which does not
+ * grow where the point is far and the triangle small. The distance is that of the foot unless that surely lies outside
+ * (areas s, t, and the third), which is never above the sides'; slivers become candidates by their normal. */
 MT_INLINE uint32_t filter_elements(const nearest_walk *walk, const float *rows, mt_index count, float near[MT_WIDTH])
 {
     const float qx = walk->at[0], qy = walk->at[1], qz = walk->at[2];
@@ -106,21 +132,19 @@ MT_INLINE uint32_t filter_elements(const nearest_walk *walk, const float *rows, 
         float side = ab < ac ? ab : ac;
         side = bc < side ? bc : side;
         float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-        float length = sqrtf(nx * nx + ny * ny + nz * nz);
+        float square_length = nx * nx + ny * ny + nz * nz, length = sqrtf(square_length);
         float sides = ux * ux + uy * uy + uz * uz + vx * vx + vy * vy + vz * vz;
-        float size = ax * ax + ay * ay + az * az + bx * bx + by * by + bz * bz + cx * cx + cy * cy + cz * cz;
-        float wrong = ROUNDING * sides + margin * sqrtf(sides), root = sqrtf(size);
-        float u = nx * (by * cz - bz * cy) + ny * (bz * cx - bx * cz) + nz * (bx * cy - by * cx);
-        float v = nx * (cy * az - cz * ay) + ny * (cz * ax - cx * az) + nz * (cx * ay - cy * ax);
-        float w = nx * (ay * bz - az * by) + ny * (az * bx - ax * bz) + nz * (ax * by - ay * bx);
-        float low = u < v ? u : v;
-        low = w < low ? w : low;
+        float root = sqrtf(ax * ax + ay * ay + az * az), wrong = ROUNDING * sides;
+        float s = nx * (vy * az - vz * ay) + ny * (vz * ax - vx * az) + nz * (vx * ay - vy * ax);
+        float t = nx * (ay * uz - az * uy) + ny * (az * ux - ax * uz) + nz * (ax * uy - ay * ux);
+        float third = square_length - s - t;
+        float low = s < t ? s : t;
+        low = third < low ? third : low;
         float divisor = length > 0x1p-60f ? length : 0x1p-60f;
         float foot = (nx * ax + ny * ay + nz * az) / divisor, foot_square = foot * foot;
-        float uncertain = margin + root * wrong / divisor;
-        bool is_outside = low < -(wrong * size + length * (margin * root + ROUNDING * size));
+        bool is_outside = low < -4 * wrong * (root * sqrtf(sides) + sides);
         float square = is_outside ? side : foot_square;
-        near[lane] = sqrtf(square) - (is_outside ? margin : uncertain);
+        near[lane] = sqrtf(square) - (is_outside ? margin : margin + root * wrong / divisor);
         passes[lane] = near[lane] > best ? 0 : 1 << lane; /* NaN passes: infinities met */
     }
     return mt_bits_of(passes);
@@ -173,6 +197,9 @@ MT_CLONES static void walk_depth_first(nearest_walk *walk, mt_pending start)
         }
         float near[MT_WIDTH];
         const mt_surface_node *node = &walk->tree->nodes[item.child];
+        if (walk->element == MT_NONE) {
+            bound_by_boxes(walk, node);
+        }
         uint32_t bits = approach_children(walk, node, near);
         depth = mt_push_children(node, near, bits, stack, depth);
     }
@@ -249,6 +276,7 @@ static void start_walk(nearest_walk *walk, mt_vec3 point, const mt_closest_optio
     walk->scaled = mt_vec3_scale(point, walk->tree->space.scale);
     walk->margin = DISTANCE_MARGIN * (1 + (float)mt_vec3_max_abs(q));
     walk->element = MT_NONE;
+    walk->limit = INFINITY;
     bound(walk, options->maximum > 0 ? options->maximum * walk->tree->space.scale : INFINITY);
     if (options->has_hint) {
         mt_element_distance found = mt_element_distance_to(walk->tree, options->hint, walk->scaled);

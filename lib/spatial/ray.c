@@ -215,7 +215,9 @@ static void solve(const mt_ray_setup *setup, const mt_ray_triangle *triangle, in
         weigh_sides(&s, hit->weights);
     }
     double depth = hit->weights[0] * s.z[0] + hit->weights[1] * s.z[1] + hit->weights[2] * s.z[2];
-    double low = fmin(fmin(s.z[0], s.z[1]), s.z[2]), high = fmax(fmax(s.z[0], s.z[1]), s.z[2]);
+    double low = s.z[0] < s.z[1] ? s.z[0] : s.z[1], high = s.z[0] < s.z[1] ? s.z[1] : s.z[0];
+    low = s.z[2] < low ? s.z[2] : low;
+    high = s.z[2] > high ? s.z[2] : high;
     depth = depth < low ? low : depth > high ? high : depth;
     hit->t = (setup->begin + depth * setup->reciprocal) * setup->t_factor;
 }

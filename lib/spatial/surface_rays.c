@@ -95,10 +95,10 @@ MT_INLINE leaf_view view_leaf(const ray_walk *walk, const float *rows, mt_index 
 
 /* Edge functions of the sheared corners. Without a margin their signs are right or zero; the margin, a multiple of the
  * slack, allows for what rounding took from vertices, origin and shear. */
-MT_INLINE uint32_t filter_edges(const ray_walk *walk, const leaf_view *view, float slack)
+MT_INLINE uint32_t filter_edges(const ray_walk *walk, const leaf_view *view, bool has_margin)
 {
     const float ox = walk->setup.float_origin[0], oy = walk->setup.float_origin[1], oz = walk->setup.float_origin[2];
-    const float sx = walk->setup.float_shear[0], sy = walk->setup.float_shear[1];
+    const float sx = walk->setup.float_shear[0], sy = walk->setup.float_shear[1], slack = walk->setup.slack;
     int32_t passes[MT_WIDTH];
     for (int lane = 0; lane < MT_WIDTH; lane++) {
         float az = view->corners[0][2][lane] - oz, bz = view->corners[1][2][lane] - oz,
@@ -113,6 +113,10 @@ MT_INLINE uint32_t filter_edges(const ray_walk *walk, const leaf_view *view, flo
         float low = u < v ? u : v, high = u > v ? u : v;
         low = w < low ? w : low;
         high = w > high ? w : high;
+        if (!has_margin) {
+            passes[lane] = (low >= 0) | (high <= 0) ? 1 << lane : 0;
+            continue;
+        }
         float size = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) + fabsf(cx) + fabsf(cy);
         float margin = slack * (size + slack) * 2;
         bool is_met = (low >= -margin) | (high <= margin);
@@ -180,10 +184,10 @@ MT_INLINE bool visit_leaf(ray_walk *walk, uint32_t child)
     uint32_t bits = 0;
     switch (walk->setup.profile) {
     case MT_RAY_WATERTIGHT:
-        bits = filter_edges(walk, &view, 0);
+        bits = filter_edges(walk, &view, false);
         break;
     case MT_RAY_EXACT:
-        bits = filter_edges(walk, &view, walk->setup.slack);
+        bits = filter_edges(walk, &view, true);
         break;
     case MT_RAY_FAST:
         bits = filter_fast(walk, &view);
