@@ -30,6 +30,8 @@ static const struct {
     {MT_HOLDS_F64, "f64", "double precision"},
     {MT_HOLDS_ALPHA, "alpha", "transparent colours"},
     {MT_HOLDS_UV_DEPTH, "uv_depth", "texture coordinates of three numbers"},
+    {MT_HOLDS_PARTS, "parts", "parts and materials by name"},
+    {MT_SPLITS_VERTICES, "split_corners", "values per corner (by splitting vertices)"},
     {MT_HOLDS_LIBRARIES, "libraries", "names of material libraries"},
 };
 

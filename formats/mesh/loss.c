@@ -1,5 +1,5 @@
 /* What a format cannot hold of a mesh, from its abilities alone. */
-#include <meshtool/mesh_format.h>
+#include "formats/mesh/loss.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -8,7 +8,7 @@
 
 #define ITEM_COUNT (sizeof((mt_loss *)0)->items / sizeof((mt_loss *)0)->items[0])
 
-static void MT_PRINTF(2, 3) add_item(mt_loss *loss, const char *format, ...)
+void mt_loss_add(mt_loss *loss, const char *format, ...)
 {
     if (loss->count == ITEM_COUNT) {
         snprintf(loss->items[ITEM_COUNT - 1], sizeof loss->items[0], "and more");
@@ -20,10 +20,10 @@ static void MT_PRINTF(2, 3) add_item(mt_loss *loss, const char *format, ...)
     va_end(arguments);
 }
 
-static void add_count(mt_loss *loss, uint64_t count, const char *one, const char *several)
+void mt_loss_add_count(mt_loss *loss, uint64_t count, const char *one, const char *several)
 {
     if (count > 0) {
-        add_item(loss, "%llu %s", (unsigned long long)count, count == 1 ? one : several);
+        mt_loss_add(loss, "%llu %s", (unsigned long long)count, count == 1 ? one : several);
     }
 }
 
@@ -54,6 +54,14 @@ static mt_status count_isolated(mt_context *context, const mt_mesh *mesh, uint64
     }
     mt_free(context, used);
     return MT_OK;
+}
+
+mt_status mt_loss_add_isolated(mt_context *context, const mt_mesh *mesh, mt_loss *loss)
+{
+    uint64_t isolated;
+    mt_status status = count_isolated(context, mesh, &isolated);
+    mt_loss_add_count(loss, isolated, "isolated vertex", "isolated vertices");
+    return status;
 }
 
 static uint64_t count_rounded(const mt_mesh *mesh)
@@ -89,26 +97,33 @@ static void add_attribute(mt_loss *loss, const mt_attribute *attribute, unsigned
     const char *domain = domains[attribute->domain];
     if (!is_held) {
         if (attribute->semantic == MT_SEMANTIC_GENERIC) {
-            add_item(loss, "%s attribute \"%.32s\"", domain, attribute->name);
+            mt_loss_add(loss, "%s attribute \"%.32s\"", domain, attribute->name);
         } else {
-            add_item(loss, "%s %s", domain, semantics[attribute->semantic]);
+            mt_loss_add(loss, "%s %s", domain, semantics[attribute->semantic]);
         }
         return;
     }
     bool color = attribute->semantic == MT_SEMANTIC_COLOR;
     if (color && attribute->component_count % 2 == 0 && !(held & MT_HOLDS_ALPHA)) {
-        add_item(loss, "alpha of %s colors", domain);
+        mt_loss_add(loss, "alpha of %s colors", domain);
     }
     if (attribute->semantic == MT_SEMANTIC_UV && attribute->component_count > 2 && !(held & MT_HOLDS_UV_DEPTH)) {
-        add_item(loss, "third component of %s UVs", domain);
+        mt_loss_add(loss, "third component of %s UVs", domain);
     }
 }
 
-static void add_labels(mt_loss *loss, const mt_labels *labels, unsigned held)
+static bool holds_labels(const mt_mesh *mesh, const mt_labels *labels, const mt_mesh_format *format, unsigned held)
 {
-    unsigned ability = labels->kind == MT_LABEL_SOLID ? MT_HOLDS_SOLIDS : MT_HOLDS_GROUPS;
-    if (labels->kind == MT_LABEL_PART || !(held & ability)) {
-        add_item(loss, "%s names", mt_label_kind_name(labels->kind));
+    unsigned ability = labels->kind == MT_LABEL_SOLID  ? MT_HOLDS_SOLIDS
+                       : labels->kind == MT_LABEL_PART ? MT_HOLDS_PARTS
+                                                       : MT_HOLDS_GROUPS;
+    return format->holds_labels ? format->holds_labels(mesh, labels) : (held & ability) != 0;
+}
+
+static void add_labels(mt_loss *loss, const mt_labels *labels, bool is_held)
+{
+    if (!is_held) {
+        mt_loss_add(loss, "%s names", mt_label_kind_name(labels->kind));
     }
 }
 
@@ -120,8 +135,11 @@ static bool holds_attribute(const mt_mesh *mesh, const mt_attribute *attribute, 
 }
 
 mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt_mesh_format *format,
-                              mt_encoding encoding, mt_loss *out)
+                              const mt_mesh_write_options *options, mt_loss *out)
 {
+    static const mt_mesh_write_options defaults;
+    options = options ? options : &defaults;
+    mt_encoding encoding = options->encoding;
     if (encoding == MT_ENCODING_DEFAULT) {
         encoding = format->has_binary ? MT_ENCODING_BINARY : MT_ENCODING_ASCII;
     }
@@ -129,36 +147,37 @@ mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt
     mt_status status = MT_OK;
     out->count = 0;
     if (!(held & MT_HOLDS_POLYGONS)) {
-        add_count(out, count_polygons(mesh), "polygon (triangulated)", "polygons (triangulated)");
+        mt_loss_add_count(out, count_polygons(mesh), "polygon (triangulated)", "polygons (triangulated)");
     }
     if (!(held & MT_HOLDS_INDICES)) {
-        uint64_t isolated;
-        status = count_isolated(context, mesh, &isolated);
-        add_count(out, isolated, "isolated vertex", "isolated vertices");
+        status = mt_loss_add_isolated(context, mesh, out);
     }
     if (!(held & MT_HOLDS_WIRES)) {
-        add_count(out, mesh->wire_count, "wire", "wires");
+        mt_loss_add_count(out, mesh->wire_count, "wire", "wires");
     }
     if (!(held & MT_HOLDS_POINTS)) {
-        add_count(out, mesh->point_count, "point", "points");
+        mt_loss_add_count(out, mesh->point_count, "point", "points");
     }
     if (!(held & MT_HOLDS_F64)) {
-        add_count(out, count_rounded(mesh), "coordinate rounded to single precision",
-                  "coordinates rounded to single precision");
+        mt_loss_add_count(out, count_rounded(mesh), "coordinate rounded to single precision",
+                          "coordinates rounded to single precision");
     }
     for (mt_index i = 0; i < mesh->attribute_count; i++) {
         const mt_attribute *attribute = &mesh->attributes[i];
         add_attribute(out, attribute, held, holds_attribute(mesh, attribute, format, encoding));
     }
     for (mt_index i = 0; i < mesh->label_set_count; i++) {
-        add_labels(out, &mesh->label_sets[i], held);
+        add_labels(out, &mesh->label_sets[i], holds_labels(mesh, &mesh->label_sets[i], format, held));
     }
     if (!(held & MT_HOLDS_CREASES)) {
-        add_count(out, mesh->crease_count, "edge sharpness", "edge sharpnesses");
-        add_count(out, mesh->sharp_vertex_count, "vertex sharpness", "vertex sharpnesses");
+        mt_loss_add_count(out, mesh->crease_count, "edge sharpness", "edge sharpnesses");
+        mt_loss_add_count(out, mesh->sharp_vertex_count, "vertex sharpness", "vertex sharpnesses");
     }
     if (!(held & MT_HOLDS_LIBRARIES)) {
-        add_count(out, mesh->material_library_count, "material library", "material libraries");
+        mt_loss_add_count(out, mesh->material_library_count, "material library", "material libraries");
+    }
+    if (status == MT_OK && format->changes) {
+        status = format->changes(context, mesh, options, out);
     }
     return status;
 }

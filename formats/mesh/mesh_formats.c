@@ -11,7 +11,9 @@
 
 const mt_mesh_format *const *mt_mesh_formats(void)
 {
-    static const mt_mesh_format *const table[] = {&mt_obj_format, &mt_off_format, &mt_ply_format, &mt_stl_format, NULL};
+    static const mt_mesh_format *const table[] = {
+        &mt_glb_format, &mt_gltf_format, &mt_obj_format, &mt_off_format, &mt_ply_format, &mt_stl_format, NULL,
+    };
     return table;
 }
 
@@ -168,7 +170,7 @@ static mt_status prepare_writing(mt_context *context, const mt_mesh *mesh, const
 {
     mt_status status = check_encoding(context, format, options->encoding);
     if (status == MT_OK) {
-        status = mt_mesh_format_loss(context, mesh, format, options->encoding, loss);
+        status = mt_mesh_format_loss(context, mesh, format, options, loss);
     }
     if (status == MT_OK && options->strict_loss && loss->count > 0) {
         status = mt_fail(context, MT_ERROR_LOSS, "%s cannot hold %s%s", format->title, loss->items[0],

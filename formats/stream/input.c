@@ -195,6 +195,11 @@ const char *mt_input_name(const mt_input *input)
     return input->name;
 }
 
+bool mt_input_has_folder(const mt_input *input)
+{
+    return input->file >= 0 && input->owns_file;
+}
+
 uint64_t mt_input_size(const mt_input *input)
 {
     return input->size;

@@ -21,6 +21,10 @@ void mt_input_close(mt_context *context, mt_input *input);
 /* As the user named it, for mt_place.file. */
 const char *mt_input_name(const mt_input *input);
 
+/* Whether the name is a path that was opened, so that files beside it can be found by it; false for memory and standard
+ * input. */
+bool mt_input_has_folder(const mt_input *input);
+
 /* Total bytes; UINT64_MAX for a stream. A file's size is a promise that reading checks. */
 uint64_t mt_input_size(const mt_input *input);
 

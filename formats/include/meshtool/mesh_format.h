@@ -24,11 +24,15 @@ typedef enum mt_ability {
     MT_HOLDS_GENERIC = 1u << 11, /* attributes known by name on vertices and faces */
     MT_HOLDS_GROUPS = 1u << 12,  /* groups, objects, materials, smoothing */
     MT_HOLDS_SOLIDS = 1u << 13,
-    MT_HOLDS_CREASES = 1u << 14,  /* sharpness on edges and vertices */
-    MT_HOLDS_F64 = 1u << 15,      /* positions in double precision */
-    MT_HOLDS_ALPHA = 1u << 16,    /* the fourth component of colours */
-    MT_HOLDS_UV_DEPTH = 1u << 17, /* the third component of UVs */
-    MT_HOLDS_LIBRARIES = 1u << 18 /* names of material libraries */
+    MT_HOLDS_CREASES = 1u << 14,   /* sharpness on edges and vertices */
+    MT_HOLDS_F64 = 1u << 15,       /* positions in double precision */
+    MT_HOLDS_ALPHA = 1u << 16,     /* the fourth component of colours */
+    MT_HOLDS_UV_DEPTH = 1u << 17,  /* the third component of UVs */
+    MT_HOLDS_LIBRARIES = 1u << 18, /* names of material libraries */
+    MT_HOLDS_PARTS = 1u << 19,     /* parts and materials by name */
+    MT_SPLITS_VERTICES = 1u << 20, /* values on corners are held, by splitting vertices */
+    MT_NEEDS_FINITE = 1u << 21,    /* a number that is not finite as a float is refused */
+    MT_TAKES_DRACO = 1u << 22      /* mt_draco_options mean something */
 } mt_ability;
 
 typedef enum mt_encoding {
@@ -46,13 +50,31 @@ typedef struct mt_mesh_read_options {
     mt_precision precision; /* auto: what the file holds (text and doubles f64, floats f32) */
 } mt_mesh_read_options;
 
+/* How Draco compresses: .drc files always, glTF when `compress` is set. All zeros: edgebreaker at speed 5, positions
+ * quantised to 14 bits of their extent, normals to 10, texture coordinates to 12, float colours to 10. */
+typedef struct mt_draco_options {
+    bool compress;          /* glTF: by KHR_draco_mesh_compression */
+    bool lossless;          /* floats as they are */
+    unsigned position_bits; /* 1 to 30; 0: 14 */
+    bool has_speed;
+    unsigned speed;  /* 0 (smallest) to 10 (fastest; sequential) */
+    bool sequential; /* keeps every vertex, and the order */
+} mt_draco_options;
+
 typedef struct mt_mesh_write_options {
     const char *format;   /* an extension that overrides the path's; NULL: the path's, or "ply" for pipes */
     mt_encoding encoding; /* default: binary where the format has both */
     bool strict_loss;     /* refuse with MT_ERROR_LOSS instead of losing anything */
     bool no_clobber;      /* refuse with MT_ERROR_IO when the file exists */
     unsigned digits; /* significant digits of positions in text, up to 17; 0: the shortest that read back the same */
+    mt_draco_options draco;
 } mt_mesh_write_options;
+
+/* What writing the mesh in a format would lose: short phrases ("corner normals", "2 wires"). */
+typedef struct mt_loss {
+    size_t count; /* past the room the last item says "and more" */
+    char items[16][64];
+} mt_loss;
 
 typedef struct mt_input mt_input;   /* bytes to read: file, standard input or memory (formats/stream) */
 typedef struct mt_output mt_output; /* bytes to write, renamed into place at the end */
@@ -71,6 +93,10 @@ typedef struct mt_mesh_format {
     /* Whether this attribute of the mesh is held, where that is more or less than the abilities say; NULL: they say
      * it. The encoding is never the default. */
     bool (*holds_attribute)(const mt_mesh *mesh, const mt_attribute *attribute, mt_encoding encoding);
+    /* The same for a set of labels. */
+    bool (*holds_labels)(const mt_mesh *mesh, const mt_labels *labels);
+    /* Adds what else writing would change, for formats that change more than their abilities tell; NULL: nothing. */
+    mt_status (*changes)(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options, mt_loss *loss);
     /* Called with options that are never NULL. A reader may leave the precision asked for to the caller, and
      * need not count numbers that are not finite; a writer need not report loss. */
     mt_status (*read)(mt_context *context, mt_input *input, const mt_mesh_read_options *options, mt_mesh **out);
@@ -97,13 +123,9 @@ mt_status mt_mesh_read_file(mt_context *context, const char *path, const mt_mesh
 mt_status mt_mesh_read_memory(mt_context *context, const char *name, const void *bytes, size_t size,
                               const mt_mesh_read_options *options, mt_mesh **out, const mt_mesh_format **format);
 
-/* What writing the mesh in a format would lose: short phrases ("corner normals", "2 wires"). O(size). */
-typedef struct mt_loss {
-    size_t count; /* past the room the last item says "and more" */
-    char items[16][64];
-} mt_loss;
+/* What writing the mesh in a format would lose. options may be NULL. O(size). */
 mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt_mesh_format *format,
-                              mt_encoding encoding, mt_loss *out);
+                              const mt_mesh_write_options *options, mt_loss *out);
 
 /* Writes a mesh beside its place and renames it there; a failed run leaves the old file and nothing new.
  * "-" is standard output; devices and pipes are written into. loss may be NULL. */
