@@ -7,6 +7,7 @@
 #include <meshtool/triangulate.h>
 #include <meshtool/weld.h>
 
+#include <limits.h>
 #include <string.h>
 
 /* All transformations that were given, in their order. */
@@ -19,7 +20,13 @@ typedef struct convert_settings {
     cli_common common;
     convert_move move;
     bool weld, triangulate;
+    bool draco;
+    unsigned bits, speed, method; /* UNSET: not given */
 } convert_settings;
+
+#define UNSET UINT_MAX
+
+static const char *const draco_methods[] = {"edgebreaker", "sequential", NULL};
 
 static void append(convert_move *move, mt_transform next)
 {
@@ -92,6 +99,32 @@ static const cli_option options[] = {
     {.name = "triangulate",
      .offset = offsetof(convert_settings, triangulate),
      .help = "split faces of more than three sides into triangles"},
+    {.name = "draco",
+     .offset = offsetof(convert_settings, draco),
+     .help = "compress glTF with Draco (.drc files always are)"},
+    {.name = "quantize",
+     .offset = offsetof(convert_settings, bits),
+     .parse = cli_parse_count,
+     .argument = "BITS",
+     .expects = "a whole number from 0 to 30",
+     .minimum = 0,
+     .maximum = 30,
+     .help = "with Draco: round positions to BITS of their extent (default: 14); 0 keeps all numbers as they are"},
+    {.name = "draco-speed",
+     .offset = offsetof(convert_settings, speed),
+     .parse = cli_parse_count,
+     .argument = "N",
+     .expects = "a whole number from 0 to 10",
+     .minimum = 0,
+     .maximum = 10,
+     .help = "with Draco: 0 is smallest, 10 fastest (default: 5)"},
+    {.name = "draco-method",
+     .offset = offsetof(convert_settings, method),
+     .parse = cli_parse_choice,
+     .argument = "NAME",
+     .expects = "edgebreaker or sequential",
+     .choices = draco_methods,
+     .help = "with Draco: edgebreaker is smaller, sequential keeps every vertex and the order"},
     {0},
 };
 
@@ -129,10 +162,43 @@ static cli_exit change(const cli_job *job, mt_mesh **mesh)
     return settings->triangulate ? triangulate(job, mesh) : CLI_EXIT_DONE;
 }
 
+static bool asks_for_draco(const convert_settings *settings)
+{
+    return settings->draco || settings->bits != UNSET || settings->speed != UNSET || settings->method != UNSET;
+}
+
+/* Draco's options need a format that takes them, and glTF needs to be told that they are meant. */
+static cli_exit check_draco(const cli_job *job, const mt_mesh_format *format)
+{
+    const convert_settings *settings = job->settings;
+    if (!asks_for_draco(settings)) {
+        return CLI_EXIT_DONE;
+    }
+    if (!(format->abilities & MT_TAKES_DRACO)) {
+        return cli_wrong_usage(job->command, "%s files are not compressed by Draco; drc, glb and gltf files can be",
+                               format->name);
+    }
+    bool always = !(format->abilities & MT_HOLDS_PARTS); /* .drc */
+    return settings->draco || always
+               ? CLI_EXIT_DONE
+               : cli_wrong_usage(job->command, "options of Draco need --draco for %s files", format->name);
+}
+
+static mt_draco_options draco_options(const convert_settings *settings)
+{
+    return (mt_draco_options){.compress = settings->draco,
+                              .lossless = settings->bits == 0,
+                              .position_bits = settings->bits == UNSET ? 0 : settings->bits,
+                              .has_speed = settings->speed != UNSET,
+                              .speed = settings->speed == UNSET ? 0 : settings->speed,
+                              .sequential = settings->method == 1};
+}
+
 static cli_exit write(const cli_job *job, const mt_mesh *mesh, const char *path)
 {
     json_t *lost = NULL;
-    cli_exit code = cli_write_mesh(job, mesh, path, &lost);
+    mt_draco_options draco = draco_options(job->settings);
+    cli_exit code = cli_write_mesh_compressed(job, mesh, path, &draco, &lost);
     if (code == CLI_EXIT_DONE && job->common->json) {
         json_t *object = cli_json_object();
         cli_json_set(object, "lost", json_incref(lost));
@@ -159,6 +225,9 @@ static cli_exit run(const cli_job *job)
     }
     mt_mesh *mesh = NULL;
     if (code == CLI_EXIT_DONE) {
+        code = check_draco(job, written);
+    }
+    if (code == CLI_EXIT_DONE) {
         code = cli_read_mesh(job, job->operands[0], &mesh, &read);
     }
     if (code == CLI_EXIT_DONE) {
@@ -171,7 +240,10 @@ static cli_exit run(const cli_job *job)
     return code;
 }
 
-static const convert_settings defaults = {.move = {.transform = {.linear = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}};
+static const convert_settings defaults = {.bits = UNSET,
+                                          .speed = UNSET,
+                                          .method = UNSET,
+                                          .move = {.transform = {.linear = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}};
 
 const cli_command cli_convert_command = {
     .name = "convert",
@@ -181,6 +253,7 @@ const cli_command cli_convert_command = {
                    "makes it a failure. Scaling, turning and moving happen in the order given, and may be repeated.",
     .examples = "  meshtool convert part.stl part.ply\n"
                 "  meshtool convert cow.obj cow.stl --rotate x,90 --scale 0.001\n"
+                "  meshtool convert part.obj part.glb --draco --quantize 12\n"
                 "  meshtool convert - - --from obj --to off < cow.obj > cow.off\n",
     .options = options,
     .groups = CLI_GROUP_OUTPUT | CLI_GROUP_WRITE | CLI_GROUP_MESH | CLI_GROUP_READ | CLI_GROUP_PRECISION |

@@ -90,9 +90,10 @@ cli_exit cli_check_output(const cli_job *job, const char *path)
     return check_place(job, path);
 }
 
-static mt_mesh_write_options mesh_write_options(const cli_job *job)
+static mt_mesh_write_options mesh_write_options(const cli_job *job, const mt_draco_options *draco)
 {
     mt_mesh_write_options options = {
+        .draco = draco ? *draco : (mt_draco_options){0},
         .format = cli_extension(job->common->to),
         .encoding = (mt_encoding)job->common->encoding,
         .strict_loss = job->common->strict_loss,
@@ -131,7 +132,7 @@ cli_exit cli_check_mesh_output(const cli_job *job, const char *path, const mt_me
     if (code != CLI_EXIT_DONE) {
         return code;
     }
-    mt_mesh_write_options options = mesh_write_options(job);
+    mt_mesh_write_options options = mesh_write_options(job, NULL);
     *format = mt_mesh_format_for_output(job->context, path, &options);
     if (!*format) {
         return cli_report_failure(job, path);
@@ -199,7 +200,13 @@ static void warn_of_digits(const cli_job *job, const char *path, const char *dig
 
 cli_exit cli_write_mesh(const cli_job *job, const mt_mesh *mesh, const char *path, json_t **lost)
 {
-    mt_mesh_write_options options = mesh_write_options(job);
+    return cli_write_mesh_compressed(job, mesh, path, NULL, lost);
+}
+
+cli_exit cli_write_mesh_compressed(const cli_job *job, const mt_mesh *mesh, const char *path,
+                                   const mt_draco_options *draco, json_t **lost)
+{
+    mt_mesh_write_options options = mesh_write_options(job, draco);
     mt_loss loss = {0};
     if (mt_mesh_write_file(job->context, mesh, path, &options, &loss) != MT_OK) {
         return cli_report_failure(job, path);

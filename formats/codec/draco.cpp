@@ -21,7 +21,7 @@ namespace
 {
 
 // Connectivity of a regular mesh, and what lies flat on it, take next to nothing; a stream may say this much more.
-constexpr uint64_t elements_per_byte = 1024, elements_free = 1u << 20;
+constexpr uint64_t elements_per_byte = 128, elements_free = 8192;
 // Bytes that Draco 1.5 holds for each triangle and vertex while it decodes or encodes, rounded up; for each set of
 // attributes with seams of their own; and for each byte of a value: stored, as portable integers, and predicted.
 constexpr uint64_t triangle_bytes = 160, vertex_bytes = 96, seam_bytes = 64, value_copies = 8;
@@ -70,11 +70,12 @@ bool read_varint(draco::DecoderBuffer *buffer, uint32_t *number)
 // The values, once their headers were read.
 bool check_values(guard *g, const draco::PointCloud *cloud)
 {
-    uint64_t bytes = 0;
+    uint64_t bytes = 0, components = 0;
     for (int i = 0; i < cloud->num_attributes(); i++) {
+        components += static_cast<uint64_t>(cloud->attribute(i)->num_components());
         bytes += static_cast<uint64_t>(cloud->attribute(i)->num_components()) * 4 + 16;
     }
-    return g->justify(cloud->num_points()) && g->take(cloud->num_points() * bytes * value_copies);
+    return g->justify(cloud->num_points()) && g->justify(cloud->num_points() * components / 4) && g->take(cloud->num_points() * bytes * value_copies);
 }
 
 template <class Base> class bounded_mesh : public Base
@@ -286,7 +287,8 @@ mt_draco_result decode(const void *bytes, size_t size, guard *g, mt_draco_mesh *
 
 void add_attributes(const mt_draco_source *source, draco::PointCloud *cloud)
 {
-    for (size_t i = 0; i < source->attribute_count; i++) {
+    // Draco has no buffer behind an attribute of no values; no points need no attributes.
+    for (size_t i = 0; i < source->attribute_count && source->vertex_count > 0; i++) {
         const mt_draco_attribute *from = &source->attributes[i];
         size_t size = from->component_count * mt_type_size(from->type);
         draco::GeometryAttribute attribute;
@@ -305,7 +307,7 @@ void set_options(const mt_draco_source *source, draco::ExpertEncoder *encoder, b
     encoder->SetEncodingMethod(points               ? static_cast<int>(draco::POINT_CLOUD_SEQUENTIAL_ENCODING)
                                : source->sequential ? static_cast<int>(draco::MESH_SEQUENTIAL_ENCODING)
                                                     : static_cast<int>(draco::MESH_EDGEBREAKER_ENCODING));
-    for (size_t i = 0; i < source->attribute_count; i++) {
+    for (size_t i = 0; i < source->attribute_count && source->vertex_count > 0; i++) {
         const mt_draco_attribute *attribute = &source->attributes[i];
         if (attribute->type == MT_F32 && attribute->bits > 0) {
             encoder->SetAttributeQuantization(static_cast<int>(i), static_cast<int>(attribute->bits));

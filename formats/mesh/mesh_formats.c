@@ -12,7 +12,8 @@
 const mt_mesh_format *const *mt_mesh_formats(void)
 {
     static const mt_mesh_format *const table[] = {
-        &mt_glb_format, &mt_gltf_format, &mt_obj_format, &mt_off_format, &mt_ply_format, &mt_stl_format, NULL,
+        &mt_drc_format, &mt_glb_format, &mt_gltf_format, &mt_obj_format,
+        &mt_off_format, &mt_ply_format, &mt_stl_format,  NULL,
     };
     return table;
 }

@@ -6,6 +6,7 @@
 #include <meshtool/mesh_format.h>
 #include <meshtool/strip_format.h>
 
+extern const mt_mesh_format mt_drc_format;
 extern const mt_mesh_format mt_glb_format;
 extern const mt_mesh_format mt_gltf_format;
 extern const mt_mesh_format mt_obj_format;

@@ -7,6 +7,7 @@
 
 #include <meshtool/generate.h>
 
+#include <math.h>
 #include <string.h>
 
 static mt_attribute *add(mt_context *context, mt_mesh *mesh, const mt_attribute_layout *layout)
@@ -168,6 +169,17 @@ size_t test_zoo(mt_context *context, test_animal *animals)
     }
     assert_true(count <= TEST_ZOO_ROOM);
     return count;
+}
+
+bool test_animal_is_refused(const test_animal *animal, const mt_mesh_format *format)
+{
+    const mt_mesh *mesh = animal->mesh;
+    bool finite = true;
+    for (mt_index i = 0; i < mesh->vertex_count; i++) {
+        mt_vec3 p = mt_mesh_position(mesh, i);
+        finite = finite && isfinite((float)p.x) && isfinite((float)p.y) && isfinite((float)p.z);
+    }
+    return !finite && (format->abilities & MT_NEEDS_FINITE);
 }
 
 void test_zoo_end(mt_context *context, test_animal *animals, size_t count)

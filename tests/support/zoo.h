@@ -2,7 +2,7 @@
 #ifndef TESTS_SUPPORT_ZOO_H
 #define TESTS_SUPPORT_ZOO_H
 
-#include <meshtool/mesh.h>
+#include <meshtool/mesh_format.h>
 
 typedef struct test_animal {
     const char *name;
@@ -13,6 +13,9 @@ typedef struct test_animal {
 
 /* Makes all of them; returns their number. */
 size_t test_zoo(mt_context *context, test_animal *animals);
+/* Whether the format may refuse the animal: its numbers are not all finite as floats, and the format needs that. */
+bool test_animal_is_refused(const test_animal *animal, const mt_mesh_format *format);
+
 void test_zoo_end(mt_context *context, test_animal *animals, size_t count);
 
 #endif

@@ -76,6 +76,9 @@ static void sweep_animal(mt_context *context, const test_animal *animal, const m
     char name[32];
     void *bytes;
     size_t size;
+    if (test_animal_is_refused(animal, format)) {
+        return;
+    }
     snprintf(name, sizeof name, "mutant.%s", format->extensions[0]);
     assert_int_equal(mt_mesh_write_memory(context, animal->mesh, &options, &bytes, &size), MT_OK);
     for (int round = 0; round < ROUNDS && size < ROOM / 2; round++) {

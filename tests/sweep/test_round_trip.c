@@ -40,7 +40,8 @@ static unsigned abilities_of(const target *t)
 /* Written and read again. */
 static mt_mesh *pass(mt_context *context, const mt_mesh *mesh, const target *to, void **bytes, size_t *size)
 {
-    mt_mesh_write_options options = {.format = to->format->name, .encoding = to->encoding};
+    mt_mesh_write_options options = {
+        .format = to->format->name, .encoding = to->encoding, .draco = {.lossless = true, .sequential = true}};
     char name[32];
     mt_mesh *again = NULL;
     snprintf(name, sizeof name, "pass.%s", to->format->extensions[0]);
@@ -81,10 +82,16 @@ static void test_every_pair_of_formats(void **state)
     for (size_t i = 0; i < animal_count; i++) {
         for (size_t first = 0; first < target_count; first++) {
             const target *a = &targets[first];
+            if (test_animal_is_refused(&animals[i], a->format)) {
+                continue;
+            }
             mt_mesh *once = pass_through(context, animals[i].mesh, a);
             check(context, animals[i].name, animals[i].mesh, once, a, a, abilities_of(a));
             for (size_t second = 0; second < target_count; second++) {
                 const target *b = &targets[second];
+                if (test_animal_is_refused(&animals[i], b->format)) {
+                    continue;
+                }
                 mt_mesh *there = pass_through(context, once, b), *back = pass_through(context, there, a);
                 unsigned both = abilities_of(a) & abilities_of(b);
                 check(context, animals[i].name, once, there, a, b, both);
@@ -112,6 +119,9 @@ static void test_writing_what_was_read_gives_the_same_bytes(void **state)
         for (size_t t = 0; t < target_count; t++) {
             void *first, *second, *third;
             size_t first_size, second_size, third_size;
+            if (test_animal_is_refused(&animals[i], targets[t].format)) {
+                continue;
+            }
             mt_mesh *once = pass(context, animals[i].mesh, &targets[t], &first, &first_size);
             mt_mesh *twice = pass(context, once, &targets[t], &second, &second_size);
             mt_mesh *thrice = pass(context, twice, &targets[t], &third, &third_size);
@@ -148,8 +158,10 @@ static void test_loss_is_said(void **state)
             void *bytes;
             size_t size;
             mt_context_clear_error(context);
-            assert_int_equal(
-                mt_mesh_format_loss(context, animals[i].mesh, targets[t].format, targets[t].encoding, &loss), MT_OK);
+            if (test_animal_is_refused(&animals[i], targets[t].format)) {
+                continue;
+            }
+            assert_int_equal(mt_mesh_format_loss(context, animals[i].mesh, targets[t].format, &options, &loss), MT_OK);
             mt_status status = mt_mesh_write_memory(context, animals[i].mesh, &options, &bytes, &size);
             assert_int_equal(status, loss.count > 0 ? MT_ERROR_LOSS : MT_OK);
             if (loss.count > 0) {

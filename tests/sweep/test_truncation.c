@@ -121,6 +121,9 @@ static void test_every_cut_of_every_format(void **state)
             snprintf(name, sizeof name, "cut.%s", (*format)->extensions[0]);
             sweep s = {.format = *format, .name = name, .text = encoding == 0};
             for (size_t i = 0; has[encoding] && i < count; i++) {
+                if (test_animal_is_refused(&animals[i], *format)) {
+                    continue;
+                }
                 s.animal = animals[i].name;
                 sweep_file(context, &s, animals[i].mesh, (mt_encoding)(MT_ENCODING_ASCII + encoding));
             }

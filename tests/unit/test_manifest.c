@@ -199,9 +199,8 @@ static void test_every_file_has_a_row(void **state)
     check_folder_is_listed(&table, "meshes", "non_manifold");
     test_csv_release(&table);
     table = test_csv_read("meshes/malformed/manifest.csv");
-    static const char *const formats[] = {"obj", "off", "ply", "stl"};
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
-        check_folder_is_listed(&table, "meshes/malformed", formats[i]);
+    for (const mt_mesh_format *const *format = mt_mesh_formats(); *format; format++) {
+        check_folder_is_listed(&table, "meshes/malformed", (*format)->name);
     }
     assert_int_equal(complaints, 0);
     test_csv_release(&table);

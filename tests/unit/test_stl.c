@@ -405,11 +405,13 @@ static void loss_is_said(void **state)
     assert_int_equal(mt_mesh_add_attribute(r.context, mesh, &layout, &attribute), MT_OK);
     ((uint16_t *)attribute->values)[0] = 7;
     mt_loss loss;
-    assert_int_equal(mt_mesh_format_loss(r.context, mesh, stl, MT_ENCODING_DEFAULT, &loss), MT_OK);
+    assert_int_equal(mt_mesh_format_loss(r.context, mesh, stl, NULL, &loss), MT_OK);
     assert_int_equal(loss.count, 2);
     assert_string_equal(loss.items[0], "1 coordinate rounded to single precision");
     assert_string_equal(loss.items[1], "solid names");
-    assert_int_equal(mt_mesh_format_loss(r.context, mesh, stl, MT_ENCODING_ASCII, &loss), MT_OK);
+    assert_int_equal(
+        mt_mesh_format_loss(r.context, mesh, stl, &(mt_mesh_write_options){.encoding = MT_ENCODING_ASCII}, &loss),
+        MT_OK);
     assert_int_equal(loss.count, 1);
     assert_string_equal(loss.items[0], "face attribute \"attribute\"");
     mt_mesh_write_options options = {.format = "stl", .strict_loss = true};
