@@ -14,7 +14,7 @@ flags=()
 grep -q 'MESHTOOL_SANITIZE:STRING=.' "$BUILD/CMakeCache.txt" &&
   flags=("-fsanitize=$(sed -n 's/^MESHTOOL_SANITIZE:STRING=//p' "$BUILD/CMakeCache.txt")")
 "$CC" -Wall -Wextra -Werror "$folder/refine.c" -I lib/include -I formats/include "$BUILD/libmeshtool.a" "${flags[@]}" \
-  -lstdc++ -lspng -ljpeg -ltiff -lz -lzstd -ljansson -lm -fopenmp -o "$folder/refine"
+  -lstdc++ -lspng -ljpeg -ltiff -lz -lzstd -ljansson -ldraco -lmeshoptimizer -lm -fopenmp -o "$folder/refine"
 
 "$folder/refine" meshes/valid/cube.obj "$folder/refined.obj"
 faces=$(grep -c '^f ' "$folder/refined.obj")

@@ -4,7 +4,7 @@
 #     tests/support/make_malformed.sh meshes/malformed
 set -euo pipefail
 folder=${1:?usage: make_malformed.sh FOLDER}
-mkdir -p "$folder"/{obj,off,ply,stl}
+mkdir -p "$folder"/{drc,glb,gltf,obj,off,ply,stl}
 
 # Writes standard input to a file of the folder.
 file() { cat > "$folder/$1"; }
@@ -154,3 +154,73 @@ printf 'neither text nor binary' | stl neither
 { printf 'solid a\n'; plain; printf 'endsolid a\nsolid b\n'; facet '0 0 1' '1 0 1' '0 1 1'; printf 'endsolid b\n'; } | stl several_solids
 { printf 'solid a\n'; plain; printf 'endsolid a\njunk follows\n'; } | stl junk_after_endsolid
 { printf 'solid a\n'; facet 'nan 0 0' '1 0 0' '0 1 0'; printf 'endsolid a\n'; } | stl nan_facet_in_text
+
+# ---- glTF ----
+gltf() { file "gltf/$1.gltf"; }
+# The data of a triangle: 36 bytes of positions, 6 of indices, 2 of nothing.
+triangle_data() { le32 "${floats[@]}"; le16 0 1 2 0; }
+data=$(triangle_data | base64 -w0)
+# A whole file: the members of the first node, of the accessor of indices, and of the root are put in.
+text() { printf '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0%s}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":1,"componentType":5123,"type":"SCALAR"%s}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[{"byteLength":44,"uri":"data:application/octet-stream;base64,%s"}]%s}' "$1" "${2:-,\"count\":3}" "${4:-$data}" "$3"; }
+: | gltf empty
+text '' '' '' | gltf plain
+{ printf '\xEF\xBB\xBF'; text '' '' ''; } | gltf utf8_mark
+text ',"translation":[1,2,3],"scale":[-1,1,1]' '' '' | gltf moved
+text '' ',"count":0' '' | gltf count_zero
+text '' ',"count":4611686018427387904' '' | gltf count_overflow
+text '' ',"count":4' '' | gltf accessor_past_its_view
+text '' ',"count":3,"byteOffset":18446744073709551615' '' | gltf offset_overflow
+text '' '' '' | sed 's/"byteLength":36}/"byteLength":36,"byteStride":8}/' | gltf stride_below_element
+text '' '' '' | sed 's/"byteOffset":36,"byteLength":6/"byteOffset":36,"byteLength":60/' | gltf view_past_its_buffer
+text '' ',"count":3,"sparse":{"count":2,"indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":1}}' '' | gltf sparse_plain
+text '' ',"count":3,"sparse":{"count":2,"indices":{"bufferView":1,"byteOffset":2,"componentType":5121},"values":{"bufferView":1}}' '' | gltf sparse_unsorted
+text '' ',"count":2,"sparse":{"count":1,"indices":{"bufferView":1,"byteOffset":4,"componentType":5121},"values":{"bufferView":1}}' '' | gltf sparse_past_count
+text '' '' '' "$( { le32 "${floats[@]}"; le16 0 1 3 0; } | base64 -w0)" | gltf index_past_count
+text '' '' '' "$( { le32 "${floats[@]}"; le16 0 1 65535 0; } | base64 -w0)" | gltf restart_value
+text '},{"children":[2]},{"children":[1]' '' '' | gltf node_cycle
+text ',"children":[2]},{"children":[2]},{"mesh":0' '' '' | gltf two_parents
+text ',"mesh":0' '' '' | gltf duplicate_key
+{ printf '{"asset":'; printf '[%.0s' {1..10000}; printf ']%.0s' {1..10000}; printf '}'; } | gltf nested_deeply
+text ',"name":"' '' '' | sed 's/"name":"/"name":"\xC3\x28"/' | gltf bad_utf8
+text '' '' '' 'AAAA*AAA' | gltf data_bad_base64
+text '' '' '' 'AAAAAAAA' | gltf data_short
+text '' '' '' | sed 's|"data:[^"]*"|"/etc/passwd"|' | gltf uri_absolute
+text '' '' '' | sed 's|"data:[^"]*"|"a/%2e%2e/../b.bin"|' | gltf uri_climbs
+text '' '' '' | sed 's|"data:[^"]*"|"https://example.org/b.bin"|' | gltf uri_with_scheme
+text '' '' ',"extensionsRequired":["ACME_secret_geometry"]' | gltf extension_unknown
+text '' '' ',"extensionsRequired":["KHR_materials_unlit"]' | gltf extension_of_looks
+text ',"matrix":[NaN,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]' '' '' | gltf nan_in_matrix
+text ',"matrix":[1e999,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]' '' '' | gltf infinity_in_matrix
+text '' '' '' | sed 's/"version":"2.0"/"version":"1.0"/' | gltf version_one
+text '' '' '' | sed 's/"POSITION":0/"POSITION":0,"TANGENT":0,"_HEAT":0/' | gltf unknown_attributes
+printf '{"asset":{"version":"2.0"}}' | gltf nothing
+text '' '' '' | head -c 300 | gltf cut_short
+
+# ---- GLB ----
+glb() { file "glb/$1.glb"; }
+json=$(text '' '' '' | sed 's/,"uri":"[^"]*"//')
+while [ $((${#json} % 4)) -ne 0 ]; do json="$json "; done
+# magic, version, length: given or right.
+glb_header() { printf 'glTF'; le32 "${2:-2}" "${1:-$((12 + 8 + ${#json} + 8 + 44))}"; }
+glb_json() { le32 "${1:-${#json}}"; printf 'JSON%s' "$json"; }
+glb_data() { le32 "${1:-44}"; printf 'BIN\0'; triangle_data; }
+: | glb empty
+{ glb_header; glb_json; glb_data; } | glb plain
+{ glb_header 4096; glb_json; glb_data; } | glb length_past_end
+{ glb_header; glb_json; glb_data; printf 'junk'; } | glb bytes_after_the_end
+{ glb_header; glb_json 100000; glb_data; } | glb chunk_past_end
+{ glb_header; glb_json; glb_data 4294967295; } | glb data_past_end
+{ glb_header; glb_data; glb_json; } | glb json_not_first
+{ glb_header '' 1; glb_json; glb_data; } | glb version_one
+{ glb_header $((12 + 8 + ${#json})); glb_json; } | glb no_data
+
+# ---- Draco ----
+drc() { file "drc/$1.drc"; }
+: | drc empty
+printf 'DRACO' | drc header_cut_short
+{ printf 'DRACO'; byte 9 9 1 1 0 0; } | drc version_nine
+{ printf 'DRACO'; byte 2 2 7 1 0 0; } | drc kind_unknown
+{ printf 'DRACO'; byte 2 2 1 1 0 0 0 255 255 255 255 7 255 255 255 255 7 0; } | drc edgebreaker_bomb
+{ printf 'DRACO'; byte 2 2 1 0 0 0 255 255 255 255 5 255 255 255 255 5 0; } | drc sequential_bomb
+{ printf 'DRACO'; byte 2 3 0 0 0 0; le32 2000000000; } | drc points_bomb
+{ printf 'DRACO'; byte 2 2 1 1 0 0 0 3 1 0 37 91 4 200 13 77 9 255; } | drc noise
