@@ -65,8 +65,15 @@ static bool has_triangle(const mt_draco_source *source)
 mt_status mt_draco_compress(mt_context *context, mt_draco_source *source, const mt_draco_options *options,
                             bool strict_loss, mt_draco_bytes *out)
 {
+    /* Draco's sequential decoder refuses more than three vertices for each triangle, which its encoder writes. */
+    bool crowded = source->triangles && source->vertex_count > 3 * (uint64_t)source->triangle_count;
     source->speed = speed_of(options);
-    source->sequential = is_sequential(options) || !has_triangle(source);
+    source->sequential = !has_triangle(source) || (is_sequential(options) && !crowded);
+    if (crowded && source->sequential) {
+        return mt_fail(context, MT_ERROR_UNSUPPORTED,
+                       "Draco holds three vertices for each triangle at most, and %u triangles without area have %u",
+                       source->triangle_count, source->vertex_count);
+    }
     mt_status status = mt_draco_job_encode(context, source, out);
     if (status == MT_OK) {
         status = compare(context, source, out, strict_loss);
