@@ -1,30 +1,27 @@
 // The shim over Draco. Its decoders are derived from, so that the counts that a stream declares are seen after its
 // header was read and before anything is allocated by them.
-#include "formats/codec/draco.h"
-
-#include <cstdio>
-#include <cstring>
-
 #ifdef MESHTOOL_DRACO
 
-#include <draco/compression/expert_encode.h>
+#include "formats/codec/draco_inside.hpp"
+
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/compression/point_cloud/point_cloud_kd_tree_decoder.h>
 #include <draco/compression/point_cloud/point_cloud_sequential_decoder.h>
 
+#include <cstdio>
+#include <cstring>
 #include <memory>
 #include <new>
-#include <string>
+#include <type_traits>
 
 namespace
 {
 
+using namespace mt_draco_inside;
+
 // Connectivity of a regular mesh, and what lies flat on it, take next to nothing; a stream may say this much more.
 constexpr uint64_t elements_per_byte = 128, elements_free = 8192;
-// Bytes that Draco 1.5 holds for each triangle and vertex while it decodes or encodes, rounded up; for each set of
-// attributes with seams of their own; and for each byte of a value: stored, as portable integers, and predicted.
-constexpr uint64_t triangle_bytes = 160, vertex_bytes = 96, seam_bytes = 64, value_copies = 8;
 
 struct guard {
     mt_draco_hold hold;
@@ -75,7 +72,8 @@ bool check_values(guard *g, const draco::PointCloud *cloud)
         components += static_cast<uint64_t>(cloud->attribute(i)->num_components());
         bytes += static_cast<uint64_t>(cloud->attribute(i)->num_components()) * 4 + 16;
     }
-    return g->justify(cloud->num_points()) && g->justify(cloud->num_points() * components / 4) && g->take(cloud->num_points() * bytes * value_copies);
+    return g->justify(cloud->num_points()) && g->justify(cloud->num_points() * components / 4) &&
+           g->take(cloud->num_points() * bytes * value_copies);
 }
 
 template <class Base> class bounded_mesh : public Base
@@ -175,21 +173,6 @@ bool type_of(draco::DataType from, mt_type *to)
     }
 }
 
-draco::DataType type_to(mt_type type)
-{
-    static const draco::DataType types[] = {draco::DT_UINT8,  draco::DT_INT8,  draco::DT_UINT16,  draco::DT_INT16,
-                                            draco::DT_UINT32, draco::DT_INT32, draco::DT_FLOAT32, draco::DT_FLOAT64};
-    return types[type];
-}
-
-draco::GeometryAttribute::Type kind_to(mt_draco_kind kind)
-{
-    static const draco::GeometryAttribute::Type kinds[] = {
-        draco::GeometryAttribute::POSITION, draco::GeometryAttribute::NORMAL, draco::GeometryAttribute::COLOR,
-        draco::GeometryAttribute::TEX_COORD, draco::GeometryAttribute::GENERIC};
-    return kinds[kind];
-}
-
 mt_draco_kind kind_of(draco::GeometryAttribute::Type type)
 {
     for (int kind = MT_DRACO_POSITION; kind < MT_DRACO_GENERIC; kind++) {
@@ -198,14 +181,6 @@ mt_draco_kind kind_of(draco::GeometryAttribute::Type type)
         }
     }
     return MT_DRACO_GENERIC;
-}
-
-void say(char *message, const char *text)
-{
-    std::snprintf(message, MT_DRACO_MESSAGE, "%s", text);
-    for (char *c = message; *c; c++) {
-        *c = *c >= ' ' && *c < 127 ? *c : ' ';
-    }
 }
 
 } // namespace
@@ -285,96 +260,7 @@ mt_draco_result decode(const void *bytes, size_t size, guard *g, mt_draco_mesh *
     return MT_DRACO_OK;
 }
 
-void add_attributes(const mt_draco_source *source, draco::PointCloud *cloud)
-{
-    // Draco has no buffer behind an attribute of no values; no points need no attributes.
-    for (size_t i = 0; i < source->attribute_count && source->vertex_count > 0; i++) {
-        const mt_draco_attribute *from = &source->attributes[i];
-        size_t size = from->component_count * mt_type_size(from->type);
-        draco::GeometryAttribute attribute;
-        attribute.Init(kind_to(from->kind), nullptr, static_cast<uint8_t>(from->component_count), type_to(from->type),
-                       from->normalized, static_cast<int64_t>(size), 0);
-        int id = cloud->AddAttribute(attribute, true, source->vertex_count);
-        cloud->attribute(id)->buffer()->Write(0, from->values, size * source->vertex_count);
-    }
-}
-
-void set_options(const mt_draco_source *source, draco::ExpertEncoder *encoder, bool points)
-{
-    int speed = static_cast<int>(source->speed);
-    encoder->SetSpeedOptions(speed, speed);
-    encoder->SetTrackEncodedProperties(true);
-    encoder->SetEncodingMethod(points               ? static_cast<int>(draco::POINT_CLOUD_SEQUENTIAL_ENCODING)
-                               : source->sequential ? static_cast<int>(draco::MESH_SEQUENTIAL_ENCODING)
-                                                    : static_cast<int>(draco::MESH_EDGEBREAKER_ENCODING));
-    for (size_t i = 0; i < source->attribute_count && source->vertex_count > 0; i++) {
-        const mt_draco_attribute *attribute = &source->attributes[i];
-        if (attribute->type == MT_F32 && attribute->bits > 0) {
-            encoder->SetAttributeQuantization(static_cast<int>(i), static_cast<int>(attribute->bits));
-        }
-    }
-}
-
-mt_draco_result finish(draco::ExpertEncoder *encoder, mt_draco_allocate allocate, void *user, mt_draco_bytes *out,
-                       char *message)
-{
-    draco::EncoderBuffer buffer;
-    draco::Status status = encoder->EncodeToBuffer(&buffer);
-    if (!status.ok()) {
-        say(message, status.error_msg());
-        return MT_DRACO_WRONG;
-    }
-    out->bytes = allocate(user, buffer.size());
-    if (!out->bytes) {
-        return MT_DRACO_REFUSED;
-    }
-    std::memcpy(out->bytes, buffer.data(), buffer.size());
-    out->size = buffer.size();
-    out->vertex_count = static_cast<mt_index>(encoder->num_encoded_points());
-    out->triangle_count = static_cast<mt_index>(encoder->num_encoded_faces());
-    return MT_DRACO_OK;
-}
-
-mt_draco_result encode(const mt_draco_source *source, mt_draco_allocate allocate, void *user, mt_draco_bytes *out,
-                       char *message)
-{
-    draco::Mesh mesh;
-    bool points = !source->triangles;
-    mesh.set_num_points(source->vertex_count);
-    add_attributes(source, &mesh);
-    mesh.SetNumFaces(points ? 0 : source->triangle_count);
-    for (mt_index i = 0; !points && i < source->triangle_count; i++) {
-        const mt_index *t = source->triangles + 3 * static_cast<size_t>(i);
-        draco::Mesh::Face face = {{draco::PointIndex(t[0]), draco::PointIndex(t[1]), draco::PointIndex(t[2])}};
-        mesh.SetFace(draco::FaceIndex(i), face);
-    }
-    const draco::PointCloud &cloud = mesh;
-    draco::ExpertEncoder encoder = points ? draco::ExpertEncoder(cloud) : draco::ExpertEncoder(mesh);
-    set_options(source, &encoder, points);
-    return finish(&encoder, allocate, user, out, message);
-}
-
 } // namespace
-
-extern "C" mt_draco_result mt_draco_encode(const mt_draco_source *source, mt_draco_hold hold,
-                                           mt_draco_allocate allocate, void *user, mt_draco_bytes *out, char *message)
-try {
-    *out = mt_draco_bytes();
-    uint64_t bytes =
-        triangle_bytes * source->triangle_count + vertex_bytes * static_cast<uint64_t>(source->vertex_count);
-    for (size_t i = 0; i < source->attribute_count; i++) {
-        const mt_draco_attribute *attribute = &source->attributes[i];
-        bytes +=
-            (attribute->component_count * mt_type_size(attribute->type) + 16) * value_copies * source->vertex_count +
-            source->triangle_count * seam_bytes;
-    }
-    return hold(user, bytes) ? encode(source, allocate, user, out, message) : MT_DRACO_REFUSED;
-} catch (const std::bad_alloc &) {
-    return MT_DRACO_NO_MEMORY;
-} catch (...) {
-    say(message, "Draco failed");
-    return MT_DRACO_WRONG;
-}
 
 extern "C" mt_draco_result mt_draco_decode(const void *bytes, size_t size, mt_draco_hold hold, void *user,
                                            mt_draco_mesh **out, size_t *consumed, char *message)
@@ -449,61 +335,6 @@ extern "C" bool mt_draco_copy_triangles(const mt_draco_mesh *mesh, mt_index *out
         }
     }
     return true;
-}
-
-#else
-
-struct mt_draco_mesh {
-    int nothing;
-};
-
-extern "C" mt_draco_result mt_draco_encode(const mt_draco_source *, mt_draco_hold, mt_draco_allocate, void *,
-                                           mt_draco_bytes *, char *message)
-{
-    std::snprintf(message, MT_DRACO_MESSAGE, "meshtool was built without Draco (MESHTOOL_DRACO=OFF)");
-    return MT_DRACO_MISSING;
-}
-
-extern "C" mt_draco_result mt_draco_decode(const void *, size_t, mt_draco_hold, void *, mt_draco_mesh **out, size_t *,
-                                           char *message)
-{
-    *out = nullptr;
-    std::snprintf(message, MT_DRACO_MESSAGE, "meshtool was built without Draco (MESHTOOL_DRACO=OFF)");
-    return MT_DRACO_MISSING;
-}
-
-extern "C" void mt_draco_destroy(mt_draco_mesh *)
-{
-}
-
-extern "C" mt_index mt_draco_vertex_count(const mt_draco_mesh *)
-{
-    return 0;
-}
-
-extern "C" mt_index mt_draco_triangle_count(const mt_draco_mesh *)
-{
-    return 0;
-}
-
-extern "C" size_t mt_draco_attribute_count(const mt_draco_mesh *)
-{
-    return 0;
-}
-
-extern "C" bool mt_draco_attribute_at(const mt_draco_mesh *, size_t, mt_draco_attribute *)
-{
-    return false;
-}
-
-extern "C" bool mt_draco_copy_values(const mt_draco_mesh *, size_t, void *)
-{
-    return false;
-}
-
-extern "C" bool mt_draco_copy_triangles(const mt_draco_mesh *, mt_index *)
-{
-    return false;
 }
 
 #endif

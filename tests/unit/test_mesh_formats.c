@@ -200,7 +200,8 @@ static void test_fewer_digits(void **state)
     mt_mesh *mesh = NULL, *back = NULL;
     assert_int_equal(mt_generate(context, "icosphere", NULL, &mesh), MT_OK);
     for (const mt_mesh_format *const *format = mt_mesh_formats(); *format; format++) {
-        if (!(*format)->has_ascii || !(*format)->read || !(*format)->write) {
+        bool has_digits = !((*format)->abilities & MT_NEEDS_FINITE); /* glTF's numbers are base64 of floats */
+        if (!(*format)->has_ascii || !has_digits || !(*format)->read || !(*format)->write) {
             continue;
         }
         mt_mesh_write_options options = {
