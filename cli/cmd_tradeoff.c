@@ -3,6 +3,7 @@
 #include "message.h"
 #include "nearest.h"
 #include "progress.h"
+#include "tradeoff/extremes.h"
 #include "tradeoff/knobs.h"
 
 #include <math.h>
@@ -12,6 +13,7 @@ typedef struct tradeoff_settings {
     cli_common common;
     const char *knob, *plot;
     double budget;
+    bool extremes;
 } tradeoff_settings;
 
 #define SETTING(member) offsetof(tradeoff_settings, member)
@@ -37,6 +39,9 @@ static const cli_option options[] = {
      .argument = "OUT",
      .expects = "a file ending in .svg, or in an image format's extension",
      .help = "draw time against error, a panel a knob, into an svg or a png"},
+    {.name = "extremes",
+     .offset = SETTING(extremes),
+     .help = "instead of a mesh: sweep generated extremes over the operations, and say where each breaks and why"},
     {0},
 };
 
@@ -118,6 +123,13 @@ static double diagonal_of(const mt_mesh *mesh)
 static cli_exit run(const cli_job *job)
 {
     const tradeoff_settings *settings = job->settings;
+    if (settings->extremes) {
+        return job->operand_count == 0 ? tradeoff_extremes(job)
+                                       : cli_wrong_usage(job->command, "--extremes makes its own meshes; name none");
+    }
+    if (job->operand_count == 0) {
+        return cli_wrong_usage(job->command, "which mesh? expected: meshtool tradeoff %s", job->command->usage);
+    }
     const tradeoff_knob *only = settings->knob ? find_knob(job, settings->knob) : NULL;
     if (settings->knob && !only) {
         return CLI_EXIT_USAGE;
@@ -153,7 +165,7 @@ static const tradeoff_settings defaults = {.budget = 20};
 
 const cli_command cli_tradeoff_command = {
     .name = "tradeoff",
-    .usage = "IN [--knob NAME] [--plot OUT]",
+    .usage = "IN [--knob NAME] [--plot OUT] | --extremes",
     .summary = "Measure what speed costs in accuracy, on your own mesh",
     .description =
         "For each choice that the toolkit leaves to you (a knob), every level is run on this mesh and this machine, "
@@ -167,7 +179,7 @@ const cli_command cli_tradeoff_command = {
     .groups = CLI_GROUP_READ | CLI_GROUP_PRECISION | CLI_GROUP_WORK | CLI_GROUP_EVERY,
     .settings_size = sizeof(tradeoff_settings),
     .defaults = &defaults,
-    .operand_minimum = 1,
+    .operand_minimum = 0,
     .operand_maximum = 1,
     .print_help = print_knobs,
     .run = run,

@@ -2,7 +2,7 @@
  * triangles around the place face the ray alike, the surface covers the place whatever rounding does to the ray, and
  * a ray that hits nothing there has slipped through. What was hit, and where, is judged by intersections of the same
  * rays with the mesh's own triangles in 113 bits. */
-#include "tradeoff/quad.h"
+#include "tradeoff/quad_triangle.h"
 #include "tradeoff/random.h"
 #include "tradeoff/statistics.h"
 
@@ -186,40 +186,6 @@ static void aim_at_random(test_state *s)
     }
 }
 
-/* Whether the ray may come near the triangle, in doubles and generously: the oracle's only shortcut. */
-static bool may_meet(const mt_vec3 p[3], const mt_ray *ray, double margin)
-{
-    double near = 0, far = INFINITY;
-    const double low[3] = {fmin(p[0].x, fmin(p[1].x, p[2].x)), fmin(p[0].y, fmin(p[1].y, p[2].y)),
-                           fmin(p[0].z, fmin(p[1].z, p[2].z))};
-    const double high[3] = {fmax(p[0].x, fmax(p[1].x, p[2].x)), fmax(p[0].y, fmax(p[1].y, p[2].y)),
-                            fmax(p[0].z, fmax(p[1].z, p[2].z))};
-    const double origin[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
-    const double along[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
-    for (int axis = 0; axis < 3; axis++) {
-        double a = (low[axis] - margin - origin[axis]) / along[axis];
-        double b = (high[axis] + margin - origin[axis]) / along[axis];
-        near = fmax(near, fmin(a, b));
-        far = fmin(far, fmax(a, b));
-    }
-    return near <= far;
-}
-
-/* Where the ray meets the triangle, INFINITY: nowhere. By Cramer's rule. */
-static double meet_in_quad(const mt_vec3 corners[3], const mt_ray *ray)
-{
-    quad3 a = quad3_from(corners[0]), d = quad3_from(ray->direction);
-    quad3 ab = quad3_subtract(quad3_from(corners[1]), a), ac = quad3_subtract(quad3_from(corners[2]), a);
-    quad3 ao = quad3_subtract(quad3_from(ray->origin), a), across = quad3_cross(d, ac), along = quad3_cross(ao, ab);
-    quad determinant = quad3_dot(ab, across);
-    if (determinant == 0) {
-        return INFINITY;
-    }
-    quad v = quad3_dot(ao, across) / determinant, w = quad3_dot(d, along) / determinant;
-    quad t = quad3_dot(ac, along) / determinant;
-    return v >= 0 && w >= 0 && v + w <= 1 && t >= 0 ? (double)t : INFINITY;
-}
-
 static void meet_all(void *user, uint64_t begin, uint64_t end)
 {
     test_state *s = user;
@@ -230,9 +196,7 @@ static void meet_all(void *user, uint64_t begin, uint64_t end)
         for (mt_index triangle = 0; triangle < s->triangulation.triangle_count; triangle++) {
             mt_vec3 p[3];
             corners_of(s, triangle, p);
-            if (may_meet(p, ray, margin)) {
-                best = fmin(best, meet_in_quad(p, ray));
-            }
+            best = fmin(best, quad_meet_triangle(p, ray, margin));
         }
         s->oracle_distances[i] = best;
     }

@@ -2,5 +2,6 @@
 #include "tradeoff/knobs.h"
 
 const tradeoff_knob *const tradeoff_knobs[] = {
-    &tradeoff_triangle_test, &tradeoff_visibility, &tradeoff_samples, &tradeoff_levels, &tradeoff_digits, NULL,
+    &tradeoff_storage, &tradeoff_triangle_test, &tradeoff_structure, &tradeoff_visibility, &tradeoff_samples,
+    &tradeoff_levels,  &tradeoff_weights,       &tradeoff_digits,    &tradeoff_strips,     NULL,
 };

@@ -7,7 +7,11 @@
 extern const tradeoff_knob tradeoff_digits;
 extern const tradeoff_knob tradeoff_levels;
 extern const tradeoff_knob tradeoff_samples;
+extern const tradeoff_knob tradeoff_storage;
+extern const tradeoff_knob tradeoff_strips;
+extern const tradeoff_knob tradeoff_structure;
 extern const tradeoff_knob tradeoff_triangle_test;
 extern const tradeoff_knob tradeoff_visibility;
+extern const tradeoff_knob tradeoff_weights;
 
 #endif

@@ -199,6 +199,35 @@ static void weigh_sides(const sheared *s, double weights[3])
     }
 }
 
+static double square_of(const double e[3])
+{
+    return e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
+}
+
+/* Depth of the triangle's plane on the ray, from the corner between the two shorter sides: the weights of a sliver are
+ * ratios of areas that rounding spoils, and its longer sides span the plane badly. NAN for a plane along the ray. */
+static double depth_on_plane(const mt_ray_setup *setup, const mt_ray_triangle *triangle, const sheared *s)
+{
+    double side[3][3], longest = -1;
+    int apex = 0;
+    for (int i = 0; i < 3; i++) {
+        int from = i == 2 ? 0 : i + 1, to = i == 0 ? 2 : i - 1; /* the side opposite corner i */
+        for (int axis = 0; axis < 3; axis++) {
+            int at = setup->axes[axis];
+            side[i][axis] = triangle->corners[to][at] - triangle->corners[from][at];
+        }
+        double square = square_of(side[i]);
+        apex = square > longest ? i : apex;
+        longest = square > longest ? square : longest;
+        side[i][0] = MT_RAY_SHEAR(side[i][0], side[i][2], setup->shear[0]);
+        side[i][1] = MT_RAY_SHEAR(side[i][1], side[i][2], setup->shear[1]);
+    }
+    double normal[3];
+    MT_RAY_CROSS(side[apex == 2 ? 0 : apex + 1], side[apex == 0 ? 2 : apex - 1], normal);
+    double depth = s->z[apex] + (normal[0] * s->x[apex] + normal[1] * s->y[apex]) / normal[2];
+    return normal[2] != 0 ? depth : (double)NAN;
+}
+
 /* Weights of the corners and t for a triangle that is hit, as decided with that sign. */
 static void solve(const mt_ray_setup *setup, const mt_ray_triangle *triangle, int sign, mt_ray_hit *hit)
 {
@@ -215,6 +244,10 @@ static void solve(const mt_ray_setup *setup, const mt_ray_triangle *triangle, in
         weigh_sides(&s, hit->weights);
     }
     double depth = hit->weights[0] * s.z[0] + hit->weights[1] * s.z[1] + hit->weights[2] * s.z[2];
+    if (setup->profile == MT_RAY_EXACT) {
+        double on_plane = depth_on_plane(setup, triangle, &s);
+        depth = isnan(on_plane) ? depth : on_plane;
+    }
     double low = s.z[0] < s.z[1] ? s.z[0] : s.z[1], high = s.z[0] < s.z[1] ? s.z[1] : s.z[0];
     low = s.z[2] < low ? s.z[2] : low;
     high = s.z[2] > high ? s.z[2] : high;

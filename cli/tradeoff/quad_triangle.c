@@ -1,0 +1,73 @@
+#include "tradeoff/quad_triangle.h"
+
+/* Whether the ray may come near the triangle, in doubles and generously: the oracle's only shortcut. */
+static bool may_meet(const mt_vec3 p[3], const mt_ray *ray, double margin)
+{
+    double near = 0, far = INFINITY;
+    const double low[3] = {fmin(p[0].x, fmin(p[1].x, p[2].x)), fmin(p[0].y, fmin(p[1].y, p[2].y)),
+                           fmin(p[0].z, fmin(p[1].z, p[2].z))};
+    const double high[3] = {fmax(p[0].x, fmax(p[1].x, p[2].x)), fmax(p[0].y, fmax(p[1].y, p[2].y)),
+                            fmax(p[0].z, fmax(p[1].z, p[2].z))};
+    const double origin[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
+    const double along[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
+    for (int axis = 0; axis < 3; axis++) {
+        double a = (low[axis] - margin - origin[axis]) / along[axis];
+        double b = (high[axis] + margin - origin[axis]) / along[axis];
+        near = fmax(near, fmin(a, b));
+        far = fmin(far, fmax(a, b));
+    }
+    return near <= far;
+}
+
+/* By Cramer's rule. */
+double quad_meet_triangle(const mt_vec3 corners[3], const mt_ray *ray, double margin)
+{
+    if (!may_meet(corners, ray, margin)) {
+        return INFINITY;
+    }
+    quad3 a = quad3_from(corners[0]), d = quad3_from(ray->direction);
+    quad3 ab = quad3_subtract(quad3_from(corners[1]), a), ac = quad3_subtract(quad3_from(corners[2]), a);
+    quad3 ao = quad3_subtract(quad3_from(ray->origin), a), across = quad3_cross(d, ac), along = quad3_cross(ao, ab);
+    quad determinant = quad3_dot(ab, across);
+    if (determinant == 0) {
+        return INFINITY;
+    }
+    quad v = quad3_dot(ao, across) / determinant, w = quad3_dot(d, along) / determinant;
+    quad t = quad3_dot(ac, along) / determinant;
+    return v >= 0 && w >= 0 && v + w <= 1 && t >= 0 ? (double)t : INFINITY;
+}
+
+/* The point of a segment nearest to p. */
+static quad3 nearest_on_segment(quad3 p, quad3 a, quad3 b)
+{
+    quad3 ab = quad3_subtract(b, a);
+    quad squared = quad3_dot(ab, ab), along = quad3_dot(quad3_subtract(p, a), ab);
+    quad t = squared > 0 ? along / squared : 0;
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    return quad3_add(a, quad3_scale(ab, t));
+}
+
+static quad squared_distance(quad3 a, quad3 b)
+{
+    quad3 d = quad3_subtract(a, b);
+    return quad3_dot(d, d);
+}
+
+/* The foot of the perpendicular where it falls inside, else the nearest of the three sides. */
+double quad_distance_to_triangle(const mt_vec3 corners[3], mt_vec3 point)
+{
+    quad3 p = quad3_from(point), a = quad3_from(corners[0]), b = quad3_from(corners[1]), c = quad3_from(corners[2]);
+    quad3 ab = quad3_subtract(b, a), ac = quad3_subtract(c, a), ap = quad3_subtract(p, a), n = quad3_cross(ab, ac);
+    quad area = quad3_dot(n, n);
+    if (area > 0) {
+        quad v = quad3_dot(quad3_cross(ap, ac), n) / area, w = quad3_dot(quad3_cross(ab, ap), n) / area;
+        if (v >= 0 && w >= 0 && v + w <= 1) {
+            return (double)(quad_absolute(quad3_dot(ap, n)) / quad_sqrt(area));
+        }
+    }
+    quad best = squared_distance(p, nearest_on_segment(p, a, b));
+    quad other = squared_distance(p, nearest_on_segment(p, b, c));
+    best = other < best ? other : best;
+    other = squared_distance(p, nearest_on_segment(p, c, a));
+    return (double)quad_sqrt(other < best ? other : best);
+}

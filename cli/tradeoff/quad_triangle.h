@@ -1,0 +1,15 @@
+/* Rays and distances to triangles in 113 bits, one triangle at a time. */
+#ifndef MESHTOOL_CLI_TRADEOFF_QUAD_TRIANGLE_H
+#define MESHTOOL_CLI_TRADEOFF_QUAD_TRIANGLE_H
+
+#include "tradeoff/quad.h"
+
+#include <meshtool/ray.h>
+
+/* The ray's parameter where it meets the triangle, INFINITY: nowhere. Triangles whose box, widened by the margin, the
+ * ray passes by in doubles are not looked at. */
+double quad_meet_triangle(const mt_vec3 corners[3], const mt_ray *ray, double margin);
+
+double quad_distance_to_triangle(const mt_vec3 corners[3], mt_vec3 point);
+
+#endif
