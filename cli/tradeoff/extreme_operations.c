@@ -5,10 +5,13 @@
 #include "tradeoff/quad_triangle.h"
 #include "tradeoff/random.h"
 #include "tradeoff/reference_surface.h"
+#include "tradeoff/statistics.h"
 
 #include <meshtool/closest_point.h>
 #include <meshtool/manifold.h>
 #include <meshtool/mesh_format.h>
+#include <meshtool/normals.h>
+#include <meshtool/predicates.h>
 #include <meshtool/preview.h>
 #include <meshtool/subdivide.h>
 
@@ -136,6 +139,33 @@ static mt_status subdivide_error(mt_context *context, const mt_mesh *mesh, doubl
     return status;
 }
 
+/* ---- normals: by area, per vertex ---- */
+
+static mt_status normals_error(mt_context *context, const mt_mesh *mesh, double *out)
+{
+    mt_mesh *bare = NULL;
+    mt_normal_options options = {.type = MT_F64};
+    quad3 *sums = mt_allocate_array_zeroed(context, mesh->vertex_count, sizeof *sums);
+    mt_status status = sums ? tradeoff_bare_mesh(context, mesh, mesh->position_type, &bare) : MT_ERROR_OUT_OF_MEMORY;
+    status = status == MT_OK ? mt_mesh_add_normals(context, bare, &options, NULL) : status;
+    double worst = 0;
+    if (status == MT_OK) {
+        const mt_attribute *normals = mt_mesh_find_attribute(bare, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX);
+        quad_vertex_normals(mesh, sums);
+        for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex++) {
+            mt_index value = mt_attribute_value_index(normals, vertex);
+            mt_vec3 n = mt_vec3_make(mt_attribute_get(normals, value, 0), mt_attribute_get(normals, value, 1),
+                                     mt_attribute_get(normals, value, 2));
+            double degrees = tradeoff_degrees_between(n, quad3_round(sums[vertex]));
+            worst = fmax(worst, isnan(degrees) ? 0 : degrees);
+        }
+    }
+    *out = worst;
+    mt_mesh_destroy(context, bare);
+    mt_free(context, sums);
+    return status;
+}
+
 /* ---- nearest points and rays: beside brute force ---- */
 
 typedef struct search {
@@ -202,6 +232,18 @@ static mt_status closest_error(mt_context *context, const mt_mesh *mesh, double 
     return status;
 }
 
+/* A triangle with an area, if one is found soon: what is none may be missed. */
+static void pick_triangle(const search *s, tradeoff_random *random, mt_vec3 p[3])
+{
+    for (int tries = 0; tries < 64; tries++) {
+        mt_index target = (mt_index)(tradeoff_random_bits(random) % s->triangulation.triangle_count);
+        corners_of(s->mesh, &s->triangulation, target, p);
+        if (!mt_collinear(p[0], p[1], p[2])) {
+            return;
+        }
+    }
+}
+
 /* Rays at places of the surface from all sides; where they hit is compared along the ray, in shares of the extent over
  * the cosine with which they hit. */
 static mt_status rays_error(mt_context *context, const mt_mesh *mesh, double *out)
@@ -212,8 +254,7 @@ static mt_status rays_error(mt_context *context, const mt_mesh *mesh, double *ou
     double worst = 0, extent = mt_vec3_max_abs(s.size);
     for (mt_index i = 0; status == MT_OK && i < s.query_count; i++) {
         mt_vec3 p[3], direction = tradeoff_random_direction(&random);
-        mt_index target = (mt_index)(tradeoff_random_bits(&random) % s.triangulation.triangle_count);
-        corners_of(mesh, &s.triangulation, target, p);
+        pick_triangle(&s, &random, p);
         mt_vec3 middle =
             mt_vec3_add(mt_vec3_scale(p[0], 0.4), mt_vec3_add(mt_vec3_scale(p[1], 0.35), mt_vec3_scale(p[2], 0.25)));
         mt_vec3 origin = mt_vec3_subtract(middle, mt_vec3_scale(direction, 2 * extent));
@@ -260,8 +301,10 @@ static mt_status picture_error(mt_context *context, const mt_mesh *mesh, double 
 static const extreme_operation text = {"text", "itself, bit for bit", false, false, 0, text_error};
 static const extreme_operation check = {"check", "area and volume in 113 bits", false, true, 1e-12, check_error};
 static const extreme_operation subdivide = {"subdivide", "the rules in 113 bits", true, true, 16, subdivide_error};
+static const extreme_operation normals = {"normals", "area vectors in 113 bits", false, true, 1e-9, normals_error};
 static const extreme_operation closest = {"closest", "brute force in 113 bits", false, true, 1e-10, closest_error};
 static const extreme_operation rays = {"rays", "brute force in 113 bits", false, true, 1e-9, rays_error};
 static const extreme_operation picture = {"picture", "the other order of drawing", false, true, 0, picture_error};
 
-const extreme_operation *const extreme_operations[] = {&text, &check, &subdivide, &closest, &rays, &picture, NULL};
+const extreme_operation *const extreme_operations[] = {&text,    &check, &normals, &subdivide,
+                                                       &closest, &rays,  &picture, NULL};

@@ -1,5 +1,6 @@
 /* In which precision positions are stored, for bounds, normals and refinement. All is judged beside what 113 bits make
  * of the positions as they were read, so that what storing takes of them counts. */
+#include "tradeoff/quad_triangle.h"
 #include "tradeoff/reference_surface.h"
 #include "tradeoff/statistics.h"
 
@@ -23,32 +24,6 @@ typedef struct storage_state {
     quad3 *normals;
     reference_surface finer;
 } storage_state;
-
-static quad3 area_vector(const mt_mesh *mesh, mt_index face)
-{
-    mt_index begin = mt_mesh_face_begin(mesh, face), end = mt_mesh_face_end(mesh, face);
-    quad3 first = quad3_from(mt_mesh_position(mesh, mesh->corner_vertices[begin])), sum = {0, 0, 0};
-    for (mt_index corner = begin + 1; corner + 1 < end; corner++) {
-        quad3 a = quad3_from(mt_mesh_position(mesh, mesh->corner_vertices[corner]));
-        quad3 b = quad3_from(mt_mesh_position(mesh, mesh->corner_vertices[corner + 1]));
-        sum = quad3_add(sum, quad3_cross(quad3_subtract(a, first), quad3_subtract(b, first)));
-    }
-    return sum;
-}
-
-static void sum_normals(const mt_mesh *mesh, quad3 *normals)
-{
-    for (mt_index face = 0; face < mesh->face_count; face++) {
-        quad3 area = area_vector(mesh, face);
-        for (mt_index corner = mt_mesh_face_begin(mesh, face); corner < mt_mesh_face_end(mesh, face); corner++) {
-            mt_index vertex = mesh->corner_vertices[corner];
-            normals[vertex] = quad3_add(normals[vertex], area);
-        }
-    }
-    for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex++) {
-        normals[vertex] = quad3_normalize(normals[vertex]);
-    }
-}
 
 static mt_status refine_reference(mt_context *context, storage_state *s)
 {
@@ -88,7 +63,7 @@ static mt_status prepare(const tradeoff_subject *subject, void **state, const ch
         status = tradeoff_bare_mesh(context, s->mesh, types[i], &s->stored[i]);
     }
     if (status == MT_OK) {
-        sum_normals(s->mesh, s->normals);
+        quad_vertex_normals(s->mesh, s->normals);
         status = refine_reference(context, s);
     }
     return status;

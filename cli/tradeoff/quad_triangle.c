@@ -11,8 +11,8 @@ static bool may_meet(const mt_vec3 p[3], const mt_ray *ray, double margin)
     const double origin[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
     const double along[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
     for (int axis = 0; axis < 3; axis++) {
-        double a = (low[axis] - margin - origin[axis]) / along[axis];
-        double b = (high[axis] + margin - origin[axis]) / along[axis];
+        double a = (low[axis] - origin[axis] - margin) / along[axis];
+        double b = (high[axis] - origin[axis] + margin) / along[axis];
         near = fmax(near, fmin(a, b));
         far = fmin(far, fmax(a, b));
     }
@@ -70,4 +70,30 @@ double quad_distance_to_triangle(const mt_vec3 corners[3], mt_vec3 point)
     best = other < best ? other : best;
     other = squared_distance(p, nearest_on_segment(p, c, a));
     return (double)quad_sqrt(other < best ? other : best);
+}
+
+static quad3 area_vector(const mt_mesh *mesh, mt_index face)
+{
+    mt_index begin = mt_mesh_face_begin(mesh, face), end = mt_mesh_face_end(mesh, face);
+    quad3 first = quad3_from(mt_mesh_position(mesh, mesh->corner_vertices[begin])), sum = {0, 0, 0};
+    for (mt_index corner = begin + 1; corner + 1 < end; corner++) {
+        quad3 a = quad3_from(mt_mesh_position(mesh, mesh->corner_vertices[corner]));
+        quad3 b = quad3_from(mt_mesh_position(mesh, mesh->corner_vertices[corner + 1]));
+        sum = quad3_add(sum, quad3_cross(quad3_subtract(a, first), quad3_subtract(b, first)));
+    }
+    return sum;
+}
+
+void quad_vertex_normals(const mt_mesh *mesh, quad3 *normals)
+{
+    for (mt_index face = 0; face < mesh->face_count; face++) {
+        quad3 area = area_vector(mesh, face);
+        for (mt_index corner = mt_mesh_face_begin(mesh, face); corner < mt_mesh_face_end(mesh, face); corner++) {
+            mt_index vertex = mesh->corner_vertices[corner];
+            normals[vertex] = quad3_add(normals[vertex], area);
+        }
+    }
+    for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex++) {
+        normals[vertex] = quad3_normalize(normals[vertex]);
+    }
 }

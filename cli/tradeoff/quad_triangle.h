@@ -12,4 +12,7 @@ double quad_meet_triangle(const mt_vec3 corners[3], const mt_ray *ray, double ma
 
 double quad_distance_to_triangle(const mt_vec3 corners[3], mt_vec3 point);
 
+/* The area-weighted unit normal of every vertex, n-gons by their area vectors; `normals` begin as zeros. */
+void quad_vertex_normals(const mt_mesh *mesh, quad3 *normals);
+
 #endif
