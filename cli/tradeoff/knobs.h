@@ -4,6 +4,7 @@
 
 #include "tradeoff/tradeoff.h"
 
+extern const tradeoff_knob tradeoff_arithmetic;
 extern const tradeoff_knob tradeoff_digits;
 extern const tradeoff_knob tradeoff_levels;
 extern const tradeoff_knob tradeoff_samples;

@@ -41,6 +41,7 @@ typedef struct search {
     mt_aabb_tree *tree;
     mt_index *keys; /* of the tree's primitives */
     bool only_first;
+    mt_arithmetic arithmetic;
     atomic_bool found;
     pair_list lists[MT_PAIR_TASKS_MAXIMUM];
 } search;
@@ -166,7 +167,9 @@ static bool decide_pair(search *job, mt_index task, mt_primitive_pair pair)
     indexed_triangle a, b;
     load_triangle(job, pair.a, &a);
     load_triangle(job, pair.b, &b);
-    if (face == other || plane_parts(job, &a, &b) || plane_parts(job, &b, &a) || !mt_triangles_intersect(&a, &b)) {
+    bool may_skip = job->arithmetic == MT_ARITHMETIC_ADAPTIVE;
+    if (face == other || (may_skip && (plane_parts(job, &a, &b) || plane_parts(job, &b, &a))) ||
+        !mt_triangles_intersect(job->arithmetic, &a, &b)) {
         return true;
     }
     atomic_store_explicit(&job->found, true, memory_order_relaxed);
@@ -195,7 +198,8 @@ static void fill_keys(void *user, uint64_t begin, uint64_t end)
         mt_index *keys = job->keys + 4 * place;
         load_vertices(job, job->tree->primitives[place].number, keys);
         for (int i = 0; i < 3; i++) {
-            keys[i] = job->flat[keys[i]] ? keys[i] : MT_NONE;
+            bool is_flat = job->flat[keys[i]] && job->arithmetic == MT_ARITHMETIC_ADAPTIVE;
+            keys[i] = is_flat ? keys[i] : MT_NONE;
         }
         keys[3] = MT_NONE;
     }
@@ -324,6 +328,7 @@ mt_status mt_find_self_intersections(mt_context *context, const mt_mesh *mesh,
     job->context = context;
     job->mesh = mesh;
     job->only_first = options && options->only_first;
+    job->arithmetic = options ? options->arithmetic : MT_ARITHMETIC_ADAPTIVE;
     mt_status status = run_search(job, out);
     mt_free(context, job);
     if (status != MT_OK) {

@@ -13,8 +13,17 @@ typedef struct mt_face_pair {
     mt_index a, b;
 } mt_face_pair;
 
+/* How signs are found when two triangles are held against each other. */
+typedef enum mt_arithmetic {
+    MT_ARITHMETIC_ADAPTIVE, /* in doubles where their error bound allows, else exactly: always right */
+    MT_ARITHMETIC_EXACT,    /* exactly throughout, without any shortcut in doubles: the same answers, to measure by */
+    MT_ARITHMETIC_FLOATING /* in doubles as they come, as most programs do: pairs are missed and made up where triangles
+                              nearly touch. To measure by; no result of meshtool stands on it */
+} mt_arithmetic;
+
 /* All zeros means the defaults. */
 typedef struct mt_self_intersection_options {
+    mt_arithmetic arithmetic;
     bool only_first; /* stop early: at least one pair is found where there are any, but not all */
 } mt_self_intersection_options;
 
