@@ -1,6 +1,7 @@
 /* meshtool convert: from one format to another, moved, turned, scaled, triangulated on the way. */
 #include "files.h"
 #include "message.h"
+#include "profile.h"
 #include "quantity.h"
 
 #include <meshtool/transform.h>
@@ -186,9 +187,11 @@ static cli_exit check_draco(const cli_job *job, const mt_mesh_format *format)
 
 static mt_draco_options draco_options(const convert_settings *settings)
 {
+    unsigned profiled = cli_profile_of(&settings->common)->quantization;
+    unsigned bits = settings->bits == UNSET ? profiled : settings->bits;
     return (mt_draco_options){.compress = settings->draco,
-                              .lossless = settings->bits == 0,
-                              .position_bits = settings->bits == UNSET ? 0 : settings->bits,
+                              .lossless = bits == 0,
+                              .position_bits = bits,
                               .has_speed = settings->speed != UNSET,
                               .speed = settings->speed == UNSET ? 0 : settings->speed,
                               .sequential = settings->method == 1};

@@ -17,7 +17,7 @@ typedef struct cli_profile {
     mt_precision precision;       /* in which refined positions are stored */
     unsigned digits;              /* of positions in text; 0: the shortest that read back the same */
     double tolerance;             /* of a largest distance, in diagonals */
-    unsigned quantization;        /* bits of a coordinate where a format quantises */
+    unsigned quantization;        /* bits of a coordinate where a format quantises; 0: none are lost */
     bool is_thorough;             /* strips: the shortest that the search finds */
 } cli_profile;
 

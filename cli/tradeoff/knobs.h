@@ -7,6 +7,7 @@
 extern const tradeoff_knob tradeoff_arithmetic;
 extern const tradeoff_knob tradeoff_digits;
 extern const tradeoff_knob tradeoff_levels;
+extern const tradeoff_knob tradeoff_quantization;
 extern const tradeoff_knob tradeoff_samples;
 extern const tradeoff_knob tradeoff_storage;
 extern const tradeoff_knob tradeoff_strips;
