@@ -25,7 +25,7 @@ typedef struct mt_binned {
 typedef struct mt_bins {
     uint32_t tiles_x, tiles_y;
     size_t *firsts;    /* per tile the first of its numbers, and one more */
-    mt_index *numbers; /* ascending within a tile */
+    mt_index *numbers; /* ascending within a tile; drawing may put them into another order */
     mt_index *large;   /* primitives of very many tiles are not listed by tile; ascending */
     mt_index large_count;
 } mt_bins;

@@ -61,7 +61,7 @@ static mt_status sort(mt_context *context, mt_picture *picture, const mt_frame *
 
 /* The numbers listed for one tile. */
 typedef struct listed {
-    const mt_index *numbers;
+    mt_index *numbers;
     size_t count;
 } listed;
 
@@ -95,7 +95,7 @@ static void draw_layers(const mt_picture *picture, mt_tile *tile, size_t tile_nu
         mt_trace_triangles(picture->frame, picture->rays, tile);
     } else {
         mt_draw_triangles(picture->frame, tile, triangles->large, triangles->large_count);
-        mt_draw_triangles(picture->frame, tile, own.numbers, own.count);
+        mt_draw_front_first(picture->frame, tile, own.numbers, own.count);
     }
     if (is_touched(strokes, tile_number) || is_touched(marks, tile_number)) {
         settle_depths(picture, tile);

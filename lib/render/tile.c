@@ -41,6 +41,8 @@ void mt_tile_place(mt_tile *tile, const mt_camera *camera, size_t tile_number)
 void mt_tile_clear(mt_tile *tile)
 {
     size_t pixels = (size_t)tile->height * MT_TILE_SIZE, lanes = pixels * tile->lane_count;
+    tile->floor = 0;
+    tile->drawn_pixels = 0;
     for (size_t lane = 0; lane < lanes; lane++) {
         tile->depths[lane] = 0;
         tile->numbers[lane] = MT_NONE;

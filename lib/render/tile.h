@@ -10,9 +10,11 @@ typedef struct mt_tile {
     uint32_t width, height; /* pixels, at most MT_TILE_SIZE */
     unsigned lane_count;
     /* lane_count for each pixel, MT_TILE_SIZE pixels a row */
-    float *depths;         /* as in mt_screen_point; 0: nothing */
-    mt_index *numbers;     /* triangle, or triangle_count + stroke; MT_NONE: nothing */
-    float *floors;         /* one for each pixel: the least of its depths, as far as triangles tell */
+    float *depths;     /* as in mt_screen_point; 0: nothing */
+    mt_index *numbers; /* triangle, or triangle_count + stroke; MT_NONE: nothing */
+    float *floors;     /* one for each pixel: farther than this no triangle can be seen in it; renewed now and then */
+    float floor;       /* the least of these */
+    uint32_t drawn_pixels; /* pixels of triangles since they were renewed */
     mt_index *marks;       /* mark * 2, + 1 where it is hidden; MT_NONE: none. NULL when the picture has no marks */
     unsigned char *wanted; /* one for each pixel, 0 where nothing needs to be drawn; NULL: all are */
 } mt_tile;

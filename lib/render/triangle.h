@@ -23,6 +23,9 @@
 #define DOUBLE_ROUNDING 0x1p-49
 #define FLOAT_ROUNDING 0x1p-19F
 
+/* The same of a depth in floats that is stepped along eight pixels, as parts of what it changes along one. */
+#define DEPTH_ROUNDING 0x1p-17F
+
 /* A triangle's corners in the picture. */
 typedef struct corners {
     const mt_screen_vertex *v[3];
@@ -160,7 +163,7 @@ static inline depth_plane make_plane(const mt_frame *frame, const corners *c)
     plane.slope_y = (d2 * x1 - d1 * x2) * scale;
     double slope = fabs(plane.slope_x) + fabs(plane.slope_y), factor = shape_factor(frame, c);
     double reach = fabs(p->x) + fabs(p->y) + 2.0 * MT_STEPS * MT_PREVIEW_MAXIMUM_SIZE;
-    double steps = in_steps(frame, c, frame->precision.plane) * factor + MT_STEPS * (double)FLOAT_ROUNDING;
+    double steps = in_steps(frame, c, frame->precision.plane) * factor + MT_STEPS * (double)DEPTH_ROUNDING;
     double moved = frame->precision.plane * factor * (mt_camera_is_parallel(&frame->camera) ? 1.0 : nearest * nearest);
     double error = slope * (steps + reach * DOUBLE_ROUNDING) + moved;
     double at_edges = slope * in_steps(frame, c, frame->precision.edges) * factor;

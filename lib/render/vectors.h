@@ -15,6 +15,7 @@ typedef float vector8f __attribute__((vector_size(32), may_alias));
 typedef float vector4f __attribute__((vector_size(16), may_alias));
 typedef int32_t vector4i __attribute__((vector_size(16), may_alias));
 typedef int32_t vector8i __attribute__((vector_size(32), may_alias));
+typedef int64_t vector2l __attribute__((vector_size(16), may_alias));
 typedef int64_t vector4l __attribute__((vector_size(32), may_alias));
 typedef int64_t vector8l __attribute__((vector_size(64), may_alias));
 

@@ -76,6 +76,21 @@ static mt_index list_triangles(const scene *s, uint32_t x, uint32_t y, mt_index 
     return count;
 }
 
+/* Front first in some tiles, or as they come, or backwards: no order shows anything else. */
+static void draw_in_some_order(const scene *s, mt_tile *tile, mt_index *listed, mt_index count, uint32_t turn)
+{
+    if (turn % 3 == 0) {
+        mt_draw_front_first(&s->frame, tile, listed, count);
+        return;
+    }
+    for (mt_index i = 0; turn % 3 == 1 && i < count / 2; i++) {
+        mt_index first = listed[i];
+        listed[i] = listed[count - 1 - i];
+        listed[count - 1 - i] = first;
+    }
+    mt_draw_triangles(&s->frame, tile, listed, count);
+}
+
 /* Compares the two orders in every sample; returns how many samples show something. */
 static size_t compare_orders(const scene *s, mt_ray_structure_kind kind)
 {
@@ -92,7 +107,7 @@ static size_t compare_orders(const scene *s, mt_ray_structure_kind kind)
         mt_tile_clear(&raster);
         mt_tile_clear(&rays);
         mt_index count = list_triangles(s, t % TILES, t / TILES, listed);
-        mt_draw_triangles(&s->frame, &raster, listed, count);
+        draw_in_some_order(s, &raster, listed, count, t);
         mt_trace_triangles(&s->frame, &all, &rays);
         size_t lanes = (size_t)MT_TILE_SIZE * MT_TILE_SIZE * raster.lane_count;
         for (size_t lane = 0; lane < lanes; lane++) {
