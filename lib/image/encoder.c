@@ -88,9 +88,10 @@ static void store_word(unsigned char *bytes, double value)
     bytes[1] = (unsigned char)(word & 255u);
 }
 
-static void encode_row(const mt_image_encoder *encoder, const float *row, unsigned char *bytes)
+void mt_image_encode_row(const mt_image_encoder *encoder, uint32_t number, unsigned char *bytes)
 {
     const mt_image *image = encoder->image;
+    const float *row = mt_image_pixel(image, 0, number);
     uint32_t channels = image->channel_count;
     bool curve = image->space == MT_COLOR_LINEAR;
     size_t count = (size_t)image->width * channels;
@@ -115,8 +116,7 @@ static void encode_block(void *user, uint64_t begin, uint64_t end)
     const encode_task *task = (const encode_task *)user;
     size_t row_size = mt_image_encoder_row_size(task->encoder);
     for (uint64_t row = begin; row < end; row++) {
-        encode_row(task->encoder, mt_image_pixel(task->encoder->image, 0, task->first + (uint32_t)row),
-                   task->bytes + row * row_size);
+        mt_image_encode_row(task->encoder, task->first + (uint32_t)row, task->bytes + row * row_size);
     }
 }
 

@@ -42,7 +42,7 @@ static void compare(mt_context *context, const mt_image *image, unsigned bits)
 static void every_kind_comes_back(void **state)
 {
     (void)state;
-    static const uint32_t sizes[][2] = {{1, 1}, {3, 5}, {1, 200}, {257, 3}, {640, 480}, {65535, 1}};
+    static const uint32_t sizes[][2] = {{1, 1}, {3, 5}, {1, 200}, {257, 3}, {640, 480}, {65535, 1}, {300, 2500}};
     test_random random = {11};
     mt_context *context = test_context();
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {

@@ -50,6 +50,9 @@ void mt_image_encoder_destroy(mt_context *context, mt_image_encoder *encoder); /
 /* Bytes of one encoded row. */
 size_t mt_image_encoder_row_size(const mt_image_encoder *encoder);
 
+/* Encodes one row; may be called inside a parallel body. */
+void mt_image_encode_row(const mt_image_encoder *encoder, uint32_t row, unsigned char *bytes);
+
 /* Encodes rows [first, first + count) into `bytes`, tightly packed. In parallel. */
 void mt_image_encode_rows(mt_context *context, const mt_image_encoder *encoder, uint32_t first, uint32_t count,
                           unsigned char *bytes);
