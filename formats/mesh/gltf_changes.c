@@ -9,12 +9,16 @@
 /* The component as it is written, widened again. */
 static double written(const mt_gltf_column *column, mt_index value, unsigned k)
 {
-    uint32_t words[4];
-    mt_gltf_make_value(column, value, words);
+    union {
+        float floats[4];
+        uint16_t shorts[8];
+        uint8_t bytes[16];
+    } to;
+    mt_gltf_make_value(column, value, &to);
     if (column->type == MT_U8) {
-        return ((const uint8_t *)words)[k];
+        return to.bytes[k];
     }
-    return column->type == MT_U16 ? (double)((const uint16_t *)words)[k] : (double)((const float *)words)[k];
+    return column->type == MT_U16 ? (double)to.shorts[k] : (double)to.floats[k];
 }
 
 /* Values of a column that are not written as they are. */

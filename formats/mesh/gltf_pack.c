@@ -39,8 +39,10 @@ static mt_status gather(packing *p, const mt_draco_options *options)
     for (mt_index i = 0; positions && i < p->chunk->vertex_count; i++) {
         mt_gltf_put_position(p->plan, p->chunk, i, positions + 3 * (size_t)i);
     }
-    bool had = positions;
-    for (size_t c = 0; c < p->plan->column_count && had; c++) {
+    if (!positions) {
+        return MT_ERROR_OUT_OF_MEMORY;
+    }
+    for (size_t c = 0; c < p->plan->column_count; c++) {
         const mt_gltf_column *column = &p->plan->columns[c];
         attribute = (mt_draco_attribute){.kind = kind_of(column),
                                          .type = column->type,
@@ -50,14 +52,16 @@ static mt_status gather(packing *p, const mt_draco_options *options)
                                          .id = (uint32_t)c + 1};
         size_t size = column->component_count * mt_type_size(column->type);
         uint8_t *values = add_attribute(p, &attribute);
-        for (mt_index i = 0; values && i < p->chunk->vertex_count; i++) {
+        if (!values) {
+            return MT_ERROR_OUT_OF_MEMORY;
+        }
+        for (mt_index i = 0; i < p->chunk->vertex_count; i++) {
             uint32_t value[4];
             mt_gltf_put_value(p->plan, column, p->chunk, i, value);
             memcpy(values + i * size, value, size);
         }
-        had = values;
     }
-    return had ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
+    return MT_OK;
 }
 
 static mt_status pack_chunk(packing *p, const mt_draco_options *options, bool strict_loss)

@@ -171,7 +171,7 @@ static void count_elements(mt_gltf_shape *shape, const mt_gltf_elements *element
 static mt_status read_primitive(mt_gltf_file *file, const mt_json_node *primitive, size_t *latest, mt_gltf_shape *shape)
 {
     mt_gltf_elements *elements = &shape->elements[shape->element_count++];
-    mt_json_node attributes, positions, extensions, draco;
+    mt_json_node attributes, positions = {0}, extensions, draco;
     mt_gltf_values indices;
     uint64_t mode = 4;
     size_t accessor = 0, none = SIZE_MAX;
