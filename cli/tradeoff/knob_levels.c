@@ -11,8 +11,8 @@
 #include <stdio.h>
 
 /* Faces of the reference, and of the finest level that is judged beside it. */
-#define REFERENCE_FACES 50000U
-#define LEVEL_FACES 20000U
+#define REFERENCE_FACES 100000U
+#define LEVEL_FACES 40000U
 
 /* Of the Hausdorff distance, in diagonals. */
 #define TOLERANCE 2e-5

@@ -57,7 +57,7 @@ static void widen(scale *s, double value)
 static scale close_scale(scale s, double least)
 {
     if (s.low > s.high) {
-        return (scale){-1, 0};
+        return (scale){-1, 0}; /* nothing but zeros */
     }
     double middle = 0.5 * (s.low + s.high), half = fmax(0.5 * (s.high - s.low), least) * 1.12;
     return (scale){middle - half, middle + half};
@@ -121,15 +121,20 @@ static void draw_time_ticks(const panel *p)
 
 static void draw_error_ticks(const panel *p)
 {
+    static const double steps[] = {1, 2, 5, 1.1, 1.2, 1.3, 1.4, 1.6, 1.8, 2.5, 3, 4, 6, 8};
     int step = (int)ceil((p->error.high - p->error.low) / 5);
     step = step > 1 ? step : 1;
+    double range = p->error.high - p->error.low;
+    size_t step_count = range > 1.6 ? 1 : range > 0.4 ? 3 : sizeof steps / sizeof *steps;
     for (int exponent = (int)floor(p->error.low); exponent <= (int)ceil(p->error.high); exponent++) {
-        double y = place_y(p, mt_pow(10, exponent));
-        if (exponent % step == 0 && y >= p->top - 0.5 && y <= p->bottom - 22 + 0.5) {
-            char text[32];
-            snprintf(text, sizeof text, "%g", mt_pow(10, exponent));
-            canvas_line(p->on, p->left, y, p->right, y, 1, PLOT_FAINT);
-            canvas_text(p->on, p->left - 7, y, LETTER - 1, PLOT_END, PLOT_MUTED, text);
+        for (size_t i = 0; i < step_count; i++) {
+            double error = steps[i] * mt_pow(10, exponent), y = place_y(p, error);
+            if (exponent % step == 0 && y >= p->top - 0.5 && y <= p->bottom - 22 + 0.5) {
+                char text[32];
+                snprintf(text, sizeof text, "%g", error);
+                canvas_line(p->on, p->left, y, p->right, y, 1, PLOT_FAINT);
+                canvas_text(p->on, p->left - 7, y, LETTER - 1, PLOT_END, PLOT_MUTED, text);
+            }
         }
     }
 }
@@ -200,6 +205,9 @@ static void draw_labels(const panel *p)
     for (size_t i = 0; i < p->row_count && i < 64; i++) {
         const tradeoff_row *row = &p->rows[i];
         char text[64];
+        if (isnan(error_of(row))) {
+            continue;
+        }
         snprintf(text, sizeof text, row->is_knee ? "%s (knee)" : "%s", row->level);
         double x = place_x(p, row->seconds), y = place_y(p, error_of(row)) - 10;
         for (size_t moved = 0; moved < p->row_count; moved++) {
@@ -227,11 +235,13 @@ static void draw_panel(const canvas *on, const tradeoff_row *rows, size_t row_co
         widen(&p.error, error_of(&rows[i]));
     }
     p.time = close_scale(p.time, 0.15);
-    p.error = close_scale(p.error, 0.5);
+    p.error = close_scale(p.error, 0.06);
     draw_frame(&p);
     draw_front(&p);
     for (size_t i = 0; i < row_count; i++) {
-        draw_point(&p, &rows[i]);
+        if (!isnan(error_of(&rows[i]))) {
+            draw_point(&p, &rows[i]);
+        }
     }
     draw_labels(&p);
 }
