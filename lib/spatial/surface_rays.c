@@ -114,7 +114,7 @@ MT_INLINE uint32_t filter_edges(const ray_walk *walk, const leaf_view *view, boo
         low = w < low ? w : low;
         high = w > high ? w : high;
         if (!has_margin) {
-            passes[lane] = (low >= 0) | (high <= 0) ? 1 << lane : 0;
+            passes[lane] = ((low >= 0) | (high <= 0)) ? 1 << lane : 0;
             continue;
         }
         float size = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) + fabsf(cx) + fabsf(cy);
