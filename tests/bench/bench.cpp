@@ -125,6 +125,7 @@ const Case cases[] = {
     {"preview-process", run_preview_process},
     {"rays", run_rays},
     {"closest", run_closest},
+    {"scene", run_scene},
 };
 
 int run_cases(int count, char **names)
@@ -147,6 +148,19 @@ int run_cases(int count, char **names)
 const std::vector<Row> &rows()
 {
     return all_rows;
+}
+
+bool installed(const std::string &program)
+{
+    return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+void run_quietly(const std::string &command)
+{
+    if (std::system((command + " >/dev/null 2>&1").c_str()) != 0) {
+        std::fprintf(stderr, "bench: failed: %s\n", command.c_str());
+        std::exit(1);
+    }
 }
 
 void require(mt_context *context, mt_status status)

@@ -48,6 +48,7 @@ void run_self_intersection();
 void run_subdivision();
 void run_preview();
 void run_preview_process();
+void run_scene();
 void run_rays();
 void run_closest();
 
@@ -58,6 +59,10 @@ mt_context *shared_context();
 
 // A closed, wavy torus of about `faces` triangles (or quads), f64, vertices in file order or shuffled.
 mt_mesh *wavy_torus(std::uint64_t faces, bool quads, bool shuffled);
+
+// Whether a program can be started, and what runs it without its output; a failure ends the bench.
+bool installed(const std::string &program);
+void run_quietly(const std::string &command);
 
 // Fails loudly: a benchmark of a failed operation measures nothing.
 void require(mt_context *context, mt_status status);

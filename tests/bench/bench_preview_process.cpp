@@ -20,19 +20,6 @@ namespace
 constexpr std::uint64_t face_count = 1000000;
 const char *const display = ":97";
 
-bool installed(const std::string &program)
-{
-    return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-void run_quietly(const std::string &command)
-{
-    if (std::system((command + " >/dev/null 2>&1").c_str()) != 0) {
-        std::fprintf(stderr, "bench: failed: %s\n", command.c_str());
-        std::exit(1);
-    }
-}
-
 // An X server for the time of its life.
 class Screen
 {
