@@ -2,22 +2,36 @@
 #include "files.h"
 #include "message.h"
 #include "paint.h"
+#include "profile.h"
 #include "quantity.h"
 #include "strip_paint.h"
 
+#include <meshtool/order.h>
 #include <meshtool/strip_format.h>
 
 typedef struct strips_settings {
     cli_common common;
-    unsigned kind; /* mt_strip_kind */
-    unsigned join; /* mt_strip_join */
+    unsigned kind;     /* mt_strip_kind */
+    unsigned join;     /* mt_strip_join */
+    unsigned optimize; /* OPTIMIZE_NOTHING, or 1 + the place among the choices */
     bool thorough;
     const char *paint;
 } strips_settings;
 
+enum { OPTIMIZE_NOTHING, OPTIMIZE_CACHE, OPTIMIZE_FETCH };
+
 /* In the order of the library's enumerations. */
 static const char *const kinds[] = {"strip", "fan", "mixed", NULL};
 static const char *const joins[] = {"restart", "degenerate", "none", NULL};
+
+static const char *const orders[] = {"cache", "fetch", NULL};
+
+static bool parse_order(const cli_option *option, const char *text, void *value)
+{
+    bool found = cli_parse_choice(option, text, value);
+    *(unsigned *)value += found;
+    return found;
+}
 
 #define SETTING(member) offsetof(strips_settings, member)
 
@@ -40,6 +54,14 @@ static const cli_option options[] = {
     {.name = "thorough",
      .offset = SETTING(thorough),
      .help = "search long for fewer indices; the result is the same on every machine"},
+    {.name = "optimize",
+     .offset = SETTING(optimize),
+     .parse = parse_order,
+     .argument = "WHAT",
+     .expects = "cache or fetch",
+     .choices = orders,
+     .help = "first order the faces for the vertex cache (cache), or the vertices as faces use them (fetch; not for "
+             "text, which has none)"},
     {.name = "paint",
      .offset = SETTING(paint),
      .parse = cli_parse_text,
@@ -69,8 +91,16 @@ static cli_exit check_usage(const cli_job *job)
     }
     cli_exit code = cli_check_output(job, common->output);
     mt_strip_write_options how = {.format = cli_extension(common->to)};
-    if (code == CLI_EXIT_DONE && !mt_strip_format_for_output(job->context, common->output, &how)) {
-        code = cli_report_failure(job, common->output);
+    const mt_strip_format *format = NULL;
+    if (code == CLI_EXIT_DONE) {
+        format = mt_strip_format_for_output(job->context, common->output, &how);
+        code = format ? CLI_EXIT_DONE : cli_report_failure(job, common->output);
+    }
+    if (code == CLI_EXIT_DONE && settings->optimize == OPTIMIZE_FETCH && !format->holds_vertices) {
+        return cli_wrong_usage(job->command,
+                               "--optimize fetch numbers the vertices anew, and %s has no vertices to go "
+                               "with the numbers",
+                               format->name);
     }
     if (code == CLI_EXIT_DONE && settings->paint) {
         cli_common without_to;
@@ -170,6 +200,20 @@ static cli_exit write_and_tell(const cli_job *job, const mt_mesh *mesh, const mt
     return code;
 }
 
+static cli_exit optimize(const cli_job *job, mt_mesh **mesh)
+{
+    const strips_settings *settings = job->settings;
+    mt_mesh *ordered = NULL;
+    mt_status status = settings->optimize == OPTIMIZE_CACHE ? mt_mesh_order_faces(job->context, *mesh, &ordered)
+                                                            : mt_mesh_order_vertices(job->context, *mesh, &ordered);
+    if (status != MT_OK) {
+        return cli_report_failure(job, job->operands[0]);
+    }
+    mt_mesh_destroy(job->context, *mesh);
+    *mesh = ordered;
+    return CLI_EXIT_DONE;
+}
+
 static cli_exit run(const cli_job *job)
 {
     const strips_settings *settings = job->settings;
@@ -182,9 +226,13 @@ static cli_exit run(const cli_job *job)
     if (code == CLI_EXIT_DONE) {
         code = cli_read_mesh(job, job->operands[0], &mesh, &read);
     }
+    if (code == CLI_EXIT_DONE && settings->optimize) {
+        code = optimize(job, &mesh);
+    }
     mt_strips *strips = NULL;
     if (code == CLI_EXIT_DONE) {
-        mt_strip_options how = {(mt_strip_kind)settings->kind, (mt_strip_join)settings->join, settings->thorough};
+        mt_strip_options how = {(mt_strip_kind)settings->kind, (mt_strip_join)settings->join,
+                                settings->thorough || cli_profile_of(job->common)->is_thorough};
         mt_status status = mt_strips_create(job->context, mesh, &how, &strips);
         code = status == MT_OK ? write_and_tell(job, mesh, strips) : cli_report_failure(job, job->operands[0]);
     }

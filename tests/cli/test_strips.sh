@@ -67,6 +67,19 @@ run 0 strips "$folder/empty.off" -o "$folder/empty.txt" --json
 prints '"strips": 0, "fans": 0, "indices": 0, "indices_per_triangle": 0'
 holds "an empty file" test ! -s "$folder/empty.txt"
 
+# Orders: the same triangles; numbers of vertices stay those of the file.
+if grep -q MESHTOOL_MESHOPT:BOOL=OFF "${BUILD:-build/test}/CMakeCache.txt" 2>/dev/null; then
+  run 3 strips meshes/valid/torus.off -o "$folder/x.txt" --optimize cache
+else
+  run 0 strips meshes/valid/torus.off -o "$folder/x.txt" --join none -q
+  run 0 strips meshes/valid/torus.off -o "$folder/y.txt" --join none -q --optimize cache
+  triangles "$folder/x.txt" >"$folder/expected"
+  triangles "$folder/y.txt" >"$folder/found"
+  holds "ordered for the cache: the same triangles" cmp "$folder/expected" "$folder/found"
+fi
+run 2 strips "$folder/none.off" -o "$folder/x.txt" --optimize fetch
+says "text has no vertices"
+
 # JSON keys, and that they agree with the file.
 run 0 strips meshes/valid/torus.off -o "$folder/x.txt" --json --thorough
 for key in triangles strips fans indices indices_per_triangle single_triangles acmr atvr fifo16 fifo32; do

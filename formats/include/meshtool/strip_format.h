@@ -20,6 +20,7 @@ typedef struct mt_strip_format {
     const char *name;
     const char *title;
     const char *const *extensions; /* lower case without the dot, NULL-terminated; the first is preferred */
+    bool holds_vertices;           /* of the mesh, beside their numbers */
     mt_status (*write)(mt_context *context, const mt_mesh *mesh, const mt_strips *strips,
                        const mt_strip_write_options *options, mt_output *output);
 } mt_strip_format;

@@ -50,6 +50,7 @@
 #include <meshtool/deviation.h>         /* how far two meshes lie apart */
 #include <meshtool/manifold.h>          /* the check that finds everything */
 #include <meshtool/normals.h>           /* of faces, vertices and corners */
+#include <meshtool/order.h>             /* faces and vertices in an order for caches */
 #include <meshtool/repair.h>            /* mending, with an account */
 #include <meshtool/self_intersection.h> /* faces that meet where they should not, decided exactly */
 #include <meshtool/signed_distance.h>   /* negative inside */
