@@ -51,22 +51,13 @@ static void take_triangle(const source *s, unsigned mode, uint64_t i, mt_index *
 }
 
 /* Triangles of a strip that name a vertex twice only join its parts. */
-static uint64_t take_joined(mt_gltf_file *file, const mt_json_node *primitive, const source *s, unsigned mode,
-                            mt_index *out)
+static uint64_t take_joined(const source *s, unsigned mode, mt_index *out)
 {
-    uint64_t kept = 0, dropped = 0;
+    uint64_t kept = 0;
     for (uint64_t i = 0; i + 2 < s->count; i++) {
         take_triangle(s, mode, i, out + 3 * kept);
         bool join = mode == TRIANGLE_STRIP && repeats(out + 3 * kept);
         kept += !join;
-        dropped += join;
-    }
-    if (dropped > 0) {
-        char path[MT_JSON_PATH];
-        mt_json_path(primitive, path);
-        mt_warn(file->context,
-                "%s: %s: %llu triangles of the strip that name a vertex twice are left out: they join it",
-                mt_input_name(file->input), path, (unsigned long long)dropped);
     }
     return 3 * kept;
 }
@@ -99,7 +90,7 @@ static void take_apart(mt_gltf_file *file, const mt_json_node *primitive, const 
                                              [TRIANGLES] = 3, [TRIANGLE_STRIP] = 3, [TRIANGLE_FAN] = 3};
     out->corner_count = corner_counts[mode];
     if (mode == TRIANGLE_STRIP || mode == TRIANGLE_FAN) {
-        out->count = take_joined(file, primitive, s, mode, out->vertices);
+        out->count = take_joined(s, mode, out->vertices);
         return;
     }
     out->count = out->corner_count > 1 ? whole_elements(file, primitive, s->count, out->corner_count) : s->count;

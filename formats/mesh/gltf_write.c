@@ -183,7 +183,7 @@ static mt_status refuse_infinite(mt_context *context, const char *what, mt_index
                    "glTF holds finite single-precision numbers only, and %s %u has one that is not", what, number);
 }
 
-static mt_status check_finite(mt_context *context, const mt_mesh *mesh)
+mt_status mt_gltf_check_finite(mt_context *context, const mt_mesh *mesh)
 {
     for (uint64_t i = 0; i < 3 * (uint64_t)mesh->vertex_count; i++) {
         float number = mesh->position_type == MT_F64 ? (float)((const double *)mesh->positions)[i]
@@ -208,7 +208,7 @@ static mt_status check_finite(mt_context *context, const mt_mesh *mesh)
     return MT_OK;
 }
 
-static mt_status write_plan(const mt_gltf_plan *plan, mt_output *output, bool binary)
+mt_status mt_gltf_write_plan(const mt_gltf_plan *plan, mt_output *output, bool binary)
 {
     mt_gltf_text text;
     mt_status status = mt_gltf_describe(plan, !binary, &text);
@@ -223,7 +223,7 @@ static mt_status write_mesh(mt_context *context, const mt_mesh *mesh, const mt_m
                             mt_output *output, bool binary)
 {
     mt_gltf_plan plan;
-    mt_status status = check_finite(context, mesh);
+    mt_status status = mt_gltf_check_finite(context, mesh);
     if (status != MT_OK) {
         return status;
     }
@@ -235,7 +235,7 @@ static mt_status write_mesh(mt_context *context, const mt_mesh *mesh, const mt_m
         status = mt_gltf_pack(&plan, &options->draco, options->strict_loss);
     }
     if (status == MT_OK) {
-        status = write_plan(&plan, output, binary);
+        status = mt_gltf_write_plan(&plan, output, binary);
     }
     mt_gltf_plan_release(&plan);
     return status;

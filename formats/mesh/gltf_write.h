@@ -121,6 +121,11 @@ unsigned mt_gltf_index_size(const mt_gltf_chunk *chunk);
 /* Indices of all its primitives. */
 uint64_t mt_gltf_chunk_indices(const mt_gltf_plan *plan, const mt_gltf_chunk *chunk, uint64_t *begin);
 
+/* glTF holds finite numbers alone: MT_ERROR_UNSUPPORTED with the first that is not. */
+mt_status mt_gltf_check_finite(mt_context *context, const mt_mesh *mesh);
+/* Writes a plan, as GLB or as text with its data inside. */
+mt_status mt_gltf_write_plan(const mt_gltf_plan *plan, mt_output *output, bool binary);
+
 mt_status mt_glb_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options,
                        mt_output *output);
 mt_status mt_gltf_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options,

@@ -15,5 +15,7 @@ extern const mt_mesh_format mt_ply_format;
 extern const mt_mesh_format mt_stl_format;
 
 extern const mt_strip_format mt_strips_text_format;
+extern const mt_strip_format mt_strips_glb_format;
+extern const mt_strip_format mt_strips_gltf_format;
 
 #endif

@@ -9,7 +9,8 @@
 
 const mt_strip_format *const *mt_strip_formats(void)
 {
-    static const mt_strip_format *const table[] = {&mt_strips_text_format, NULL};
+    static const mt_strip_format *const table[] = {&mt_strips_text_format, &mt_strips_glb_format,
+                                                   &mt_strips_gltf_format, NULL};
     return table;
 }
 
