@@ -199,13 +199,20 @@ static void weigh_sides(const sheared *s, double weights[3])
     }
 }
 
+/* Slope of a plane along the ray up to which its depth is asked: rounding of 2^-52 then moves it by 2^-36, far less
+ * than the 2^-24 and more by which boxes are widened. Larger: hits that boxes cull; smaller: slivers whose t is spoilt.
+ */
+#define STEEPEST_PLANE 0x1p16
+
 static double square_of(const double e[3])
 {
     return e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
 }
 
 /* Depth of the triangle's plane on the ray, from the corner between the two shorter sides: the weights of a sliver are
- * ratios of areas that rounding spoils, and its longer sides span the plane badly. NAN for a plane along the ray. */
+ * ratios of areas that rounding spoils, and its longer sides span the plane badly. NAN for a plane nearly along the
+ * ray, where the depth of the plane may leave the triangle, and so the boxes that hold it, by more than these are
+ * widened. */
 static double depth_on_plane(const mt_ray_setup *setup, const mt_ray_triangle *triangle, const sheared *s)
 {
     double side[3][3], longest = -1;
@@ -224,8 +231,9 @@ static double depth_on_plane(const mt_ray_setup *setup, const mt_ray_triangle *t
     }
     double normal[3];
     MT_RAY_CROSS(side[apex == 2 ? 0 : apex + 1], side[apex == 0 ? 2 : apex - 1], normal);
+    bool is_steep = fabs(normal[0]) + fabs(normal[1]) > STEEPEST_PLANE * fabs(normal[2]) || normal[2] == 0;
     double depth = s->z[apex] + (normal[0] * s->x[apex] + normal[1] * s->y[apex]) / normal[2];
-    return normal[2] != 0 ? depth : (double)NAN;
+    return is_steep ? (double)NAN : depth;
 }
 
 /* Weights of the corners and t for a triangle that is hit, as decided with that sign. */
