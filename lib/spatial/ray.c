@@ -4,7 +4,8 @@
  * corner to the same bits. Products of two floats are exact in double, so the sign of their difference is that of the
  * exact edge function, and a point on the plane lies in or on at least one of the triangles around it. Exact: the same
  * decision by exact predicates in space. Both then solve t and weights in double; where the ray misses the unrounded
- * triangle, at its nearest point, so that the hit lies in the triangle's box and boxes can be culled by t.
+ * triangle, or is too nearly in its plane for that, at the nearest point of its sides, so that the hit lies in the
+ * triangle's box and boxes can be culled by t.
  *
  * Known failure: a triangle whose sheared corners lie on a line is missed, also where a ray in its plane crosses it. */
 #include <meshtool/predicates.h>
@@ -236,19 +237,30 @@ static double depth_on_plane(const mt_ray_setup *setup, const mt_ray_triangle *t
     return is_steep ? (double)NAN : depth;
 }
 
+/* Weights by areas, for a triangle that is hit, as decided with that sign. False where they cannot be used: the ray
+ * misses the unrounded triangle, or the areas are so small beside their rounding that the point they make lies farther
+ * off the ray than the slack. */
+static bool weigh_areas(const mt_ray_setup *setup, const sheared *s, int sign, double weights[3])
+{
+    double u = sign * MT_RAY_EDGE(s->x[1], s->y[1], s->x[2], s->y[2]);
+    double v = sign * MT_RAY_EDGE(s->x[2], s->y[2], s->x[0], s->y[0]);
+    double w = sign * MT_RAY_EDGE(s->x[0], s->y[0], s->x[1], s->y[1]);
+    double sum = u + v + w;
+    if (!(u >= 0 && v >= 0 && w >= 0 && sum > 0)) {
+        return false;
+    }
+    weights[0] = u / sum;
+    weights[1] = v / sum;
+    weights[2] = w / sum;
+    return fabs(MT_RAY_DOT(weights, s->x)) <= (double)setup->slack &&
+           fabs(MT_RAY_DOT(weights, s->y)) <= (double)setup->slack;
+}
+
 /* Weights of the corners and t for a triangle that is hit, as decided with that sign. */
 static void solve(const mt_ray_setup *setup, const mt_ray_triangle *triangle, int sign, mt_ray_hit *hit)
 {
     sheared s = shear_corners(setup, triangle);
-    double u = sign * MT_RAY_EDGE(s.x[1], s.y[1], s.x[2], s.y[2]);
-    double v = sign * MT_RAY_EDGE(s.x[2], s.y[2], s.x[0], s.y[0]);
-    double w = sign * MT_RAY_EDGE(s.x[0], s.y[0], s.x[1], s.y[1]);
-    double sum = u + v + w;
-    if (u >= 0 && v >= 0 && w >= 0 && sum > 0) {
-        hit->weights[0] = u / sum;
-        hit->weights[1] = v / sum;
-        hit->weights[2] = w / sum;
-    } else {
+    if (!weigh_areas(setup, &s, sign, hit->weights)) {
         weigh_sides(&s, hit->weights);
     }
     double depth = hit->weights[0] * s.z[0] + hit->weights[1] * s.z[1] + hit->weights[2] * s.z[2];

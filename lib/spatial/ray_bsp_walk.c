@@ -1,7 +1,8 @@
 /* Rays through the BSP tree, front to back, by the cases of how a ray relates to a plane (Kaplan, "The Use of Spatial
  * Coherence in Ray Tracing", 1985): the ray stays on its side, or leaves it for the other, or comes from it. A ray
- * along the plane stays on its side; one that runs in it belongs to both. Where a ray's interval ends on a plane, the
- * plane belongs to both sides.
+ * along the plane, of a component of +0 or -0, stays on its side, or visits both where it comes within what rounding
+ * allows for; both sides always would ask a thousandfold of rays along an axis. Where a ray begins or ends on a plane,
+ * the plane belongs to both sides.
  *
  * A hit lies in the leaf whose interval holds its parameter, give or take doubles, and its triangle is an entry of
  * every leaf within MT_RAY_NEARNESS: so the walk may end when what is left begins behind the best hit. */
@@ -44,8 +45,8 @@ static void descend(const mt_ray_bsp_node *node, bsp_walk *walk, interval *here)
     double plane = (double)node->plane, origin = walk->origin[axis], reciprocal = walk->reciprocal[axis];
     if (reciprocal == 0) {
         here->node = below + (origin > plane);
-        if (origin == plane) {
-            walk->stack[walk->depth++] = (interval){here->enter, here->leave, below + 1};
+        if (fabs(origin - plane) <= MT_RAY_NEARNESS) {
+            walk->stack[walk->depth++] = (interval){here->enter, here->leave, below + (origin <= plane)};
         }
         return;
     }

@@ -124,6 +124,7 @@ const Case cases[] = {
     {"preview", run_preview},
     {"preview-process", run_preview_process},
     {"rays", run_rays},
+    {"structures", run_structures},
     {"closest", run_closest},
     {"scene", run_scene},
 };
@@ -181,35 +182,70 @@ mt_context *shared_context()
     return context;
 }
 
+namespace
+{
+
+// A context of one thread and one of all, and the three series that a row is made of.
+struct Comparison {
+    mt_context *single, *all;
+    Series ours_single, ours_all, peer;
+
+    Comparison()
+    {
+        mt_context_options one_thread{};
+        one_thread.thread_count = 1;
+        single = mt_context_create(&one_thread);
+        all = mt_context_create(nullptr);
+    }
+    ~Comparison()
+    {
+        mt_context_destroy(single);
+        mt_context_destroy(all);
+    }
+    Comparison(const Comparison &) = delete;
+    Comparison &operator=(const Comparison &) = delete;
+
+    void keep(Row row)
+    {
+        row.ours = ours_single.sample();
+        row.ours_all = ours_all.sample();
+        row.theirs = peer.sample();
+        if (row.verdict) {
+            row.error = *row.verdict;
+            row.verdict = nullptr;
+        }
+        print_row(row);
+        all_rows.push_back(row);
+    }
+};
+
+} // namespace
+
 void compare(Row row, const Ours &ours, const Theirs &theirs)
 {
-    mt_context_options one_thread{};
-    one_thread.thread_count = 1;
-    mt_context *single = mt_context_create(&one_thread);
-    mt_context *all = mt_context_create(nullptr);
-    Series ours_single, ours_all, peer;
-    ours(single); // once unmeasured: the first run pays for page tables and caches
-    for (int i = 0; i < 9 && (i < 3 || ours_single.total + ours_all.total + peer.total < 3.0); i++) {
-        ours_single.run([&] { ours(single); });
-        if (ours_single.seconds.back() < 0.25) {
-            ours(all); // unmeasured: a CPU that slept while one thread ran alone takes tens of milliseconds to wake
+    Comparison runs;
+    ours(runs.single); // once unmeasured: the first run pays for page tables and caches
+    for (int i = 0; i < 9 && (i < 3 || runs.ours_single.total + runs.ours_all.total + runs.peer.total < 3.0); i++) {
+        runs.ours_single.run([&] { ours(runs.single); });
+        if (runs.ours_single.seconds.back() < 0.25) {
+            ours(
+                runs.all); // unmeasured: a CPU that slept while one thread ran alone takes tens of milliseconds to wake
         }
-        ours_all.run([&] { ours(all); });
-        if (peer.total < 3.0) {
-            peer.run(theirs);
+        runs.ours_all.run([&] { ours(runs.all); });
+        if (runs.peer.total < 3.0) {
+            runs.peer.run(theirs);
         }
     }
-    mt_context_destroy(single);
-    mt_context_destroy(all);
-    row.ours = ours_single.sample();
-    row.ours_all = ours_all.sample();
-    row.theirs = peer.sample();
-    if (row.verdict) {
-        row.error = *row.verdict;
-        row.verdict = nullptr;
-    }
-    print_row(row);
-    all_rows.push_back(row);
+    runs.keep(row);
+}
+
+void compare_once(Row row, const Ours &ours, const Theirs &theirs)
+{
+    Comparison runs;
+    runs.ours_single.run([&] { ours(runs.single); });
+    runs.ours_all.run([&] { ours(runs.all); });
+    runs.peer.run(theirs);
+    runs.keep(row);
 }
 
 } // namespace bench
@@ -227,7 +263,7 @@ int main(int argc, char **argv)
         std::fprintf(
             stderr,
             "bench: no such case; there are reading, connectivity, one-ring, normals, check, self-intersection, "
-            "subdivision, preview, rays, closest\n");
+            "subdivision, preview, rays, structures, closest\n");
     }
     if (csv) {
         bench::write_csv(csv);

@@ -34,6 +34,9 @@ using Theirs = std::function<void()>;
 // at least; a peer that has taken three seconds does not run again.
 void compare(Row row, const Ours &ours, const Theirs &theirs);
 
+// The same, each once and with nothing unmeasured before: for what takes seconds, or is one row of very many.
+void compare_once(Row row, const Ours &ours, const Theirs &theirs);
+
 // Every case by name, and what it measures.
 struct Case {
     const char *name;
@@ -50,6 +53,7 @@ void run_preview();
 void run_preview_process();
 void run_scene();
 void run_rays();
+void run_structures();
 void run_closest();
 
 const std::vector<Row> &rows();
