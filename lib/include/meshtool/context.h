@@ -105,9 +105,9 @@ void mt_free(mt_context *context, void *block); /* NULL is allowed */
 /* A copy of a string; NULL with the error recorded when memory is missing. */
 char *mt_duplicate_string(mt_context *context, const char *text);
 
-/* Counts bytes that a third-party library is about to allocate by itself, at most, against the limit, as if they had been
- * allocated here: MT_OK, or MT_ERROR_OUT_OF_MEMORY recorded. Give them back with mt_release_bytes once that library has
- * freed them. */
+/* Counts bytes that a third-party library is about to allocate by itself, at most, against the limit, as if they had
+ * been allocated here: MT_OK, or MT_ERROR_OUT_OF_MEMORY recorded. Give them back with mt_release_bytes once that
+ * library has freed them. */
 mt_status mt_hold_bytes(mt_context *context, uint64_t size);
 void mt_release_bytes(mt_context *context, uint64_t size);
 
