@@ -59,7 +59,7 @@ static bool enter(const obb_walk *walk, const mt_oriented_box *frame, float limi
     float4 direction =
         columns[0] * walk->direction[0] + columns[1] * walk->direction[1] + columns[2] * walk->direction[2];
     float4 reciprocal = 1.0f / direction;
-    const int4 backward = (int4)direction >> 31;
+    const int4 backward = (int4)direction < 0;
     float4 low = lower - walk->slack - origin, high = upper + walk->slack - origin;
     float4 enters = (float4)(((int4)high & backward) | ((int4)low & ~backward)) * reciprocal;
     float4 leaves = (float4)(((int4)low & backward) | ((int4)high & ~backward)) * reciprocal;
