@@ -289,7 +289,8 @@ static mt_status picture_error(mt_context *context, const mt_mesh *mesh, double 
     }
     double differing = 0, covered = 0;
     for (size_t i = 0; status == MT_OK && i < (size_t)SIZE * SIZE; i++) {
-        differing += memcmp(images[0]->pixels + 4 * i, images[1]->pixels + 4 * i, 4 * sizeof(float)) != 0;
+        const float *a = images[0]->pixels + 4 * i, *b = images[1]->pixels + 4 * i;
+        differing += a[0] != b[0] || a[1] != b[1] || a[2] != b[2] || a[3] != b[3];
         covered += images[0]->pixels[4 * i + 3] > 0;
     }
     *out = covered > 0 ? differing : INFINITY;

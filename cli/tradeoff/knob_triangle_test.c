@@ -83,12 +83,11 @@ typedef struct facing {
 static void look_at(facing *f, mt_vec3 normal)
 {
     double cosine = mt_vec3_dot(normal, f->direction);
-    if (f->least == 2) {
+    bool is_first = f->least == 2, agrees = f->least * cosine > 0;
+    if (is_first || (agrees && fabs(cosine) < fabs(f->least))) {
         f->least = cosine;
-    } else if (f->least * cosine <= 0) {
+    } else if (!agrees) {
         f->least = 0;
-    } else if (fabs(cosine) < fabs(f->least)) {
-        f->least = cosine;
     }
 }
 

@@ -94,7 +94,11 @@ static void normal_matrix(const mt_transform *transform, double out[3][3])
 static bool keeps_normals(const mt_transform *t)
 {
     mt_transform identity = mt_transform_identity();
-    return memcmp(t->linear, identity.linear, sizeof t->linear) == 0;
+    bool same = true;
+    for (size_t i = 0; i < 9; i++) {
+        same = same && t->linear[i / 3][i % 3] == identity.linear[i / 3][i % 3];
+    }
+    return same;
 }
 
 static void put_normals(const mt_gltf_values *from, const mt_transform *transform, float *to)

@@ -89,6 +89,16 @@ uint64_t mt_packed_triangles_size(const mt_packed_triangles *triangles)
            (uint64_t)(sizeof *triangles->items + sizeof *triangles->numbers);
 }
 
+static bool is_same(const mt_packed_triangle *a, const mt_packed_triangle *b)
+{
+    for (int i = 0; i < 12; i++) {
+        if (a->rows[i / 4][i % 4] != b->rows[i / 4][i % 4]) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* Marks each number once, with what is not finite; false for a stranger, a double or another place. */
 static bool mark_all(const mt_packed_triangles *triangles, uint8_t *seen)
 {
@@ -97,7 +107,7 @@ static bool mark_all(const mt_packed_triangles *triangles, uint8_t *seen)
     for (mt_index i = 0; i < triangles->count; i++) {
         mt_index number = triangles->numbers[i];
         if (number >= all || seen[number]++ || !pack(&triangles->source, number, &item) ||
-            memcmp(&item, &triangles->items[i], sizeof item) != 0) {
+            !is_same(&item, &triangles->items[i])) {
             return false;
         }
     }
