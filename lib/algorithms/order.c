@@ -178,19 +178,25 @@ static mt_index order_by_use(mt_context *context, const mt_mesh *mesh, mt_index 
     return (mt_index)used;
 }
 
-/* The library takes whole triangles alone; the last vertex once more, or twice, changes no order. */
-static void find_targets(const mt_mesh *mesh, mt_index *padded, mt_index *targets, mt_index *sources)
+static mt_status derive_vertices(mt_context *context, const mt_mesh *mesh, mt_index *targets, mt_index *sources,
+                                 mt_mesh **out)
 {
-    size_t count = mesh->corner_count;
-    memcpy(padded, mesh->corner_vertices, count * sizeof(mt_index));
-    for (; count % 3; count++) {
-        padded[count] = padded[count - 1];
+    mt_index next = order_by_use(context, mesh, targets);
+    if (next == MT_NONE) {
+        return mt_context_error(context)->status;
     }
-    mt_index next = (mt_index)meshopt_optimizeVertexFetchRemap(targets, padded, count, mesh->vertex_count);
     for (mt_index v = 0; v < mesh->vertex_count; v++) {
         targets[v] = targets[v] == MT_NONE ? next++ : targets[v];
         sources[targets[v]] = v;
     }
+    mt_derivation derivation = {.vertex_count = mesh->vertex_count,
+                                .vertex_sources = sources,
+                                .vertex_targets = targets,
+                                .face_count = mesh->face_count,
+                                .face_size = mesh->face_size,
+                                .face_offsets = mesh->face_offsets,
+                                .corner_count = mesh->corner_count};
+    return mt_mesh_derive(context, mesh, &derivation, out);
 }
 
 mt_status mt_mesh_order_vertices(mt_context *context, const mt_mesh *mesh, mt_mesh **out)
@@ -198,22 +204,10 @@ mt_status mt_mesh_order_vertices(mt_context *context, const mt_mesh *mesh, mt_me
     *out = NULL;
     mt_index *targets = mt_allocate_array(context, mesh->vertex_count, sizeof(mt_index));
     mt_index *sources = mt_allocate_array(context, mesh->vertex_count, sizeof(mt_index));
-    mt_index *padded = mt_allocate_array(context, mesh->corner_count + (uint64_t)2, sizeof(mt_index));
-    mt_status status = targets && sources && padded ? MT_OK : mt_context_error(context)->status;
-    if (status == MT_OK) {
-        find_targets(mesh, padded, targets, sources);
-        mt_derivation derivation = {.vertex_count = mesh->vertex_count,
-                                    .vertex_sources = sources,
-                                    .vertex_targets = targets,
-                                    .face_count = mesh->face_count,
-                                    .face_size = mesh->face_size,
-                                    .face_offsets = mesh->face_offsets,
-                                    .corner_count = mesh->corner_count};
-        status = mt_mesh_derive(context, mesh, &derivation, out);
-    }
+    mt_status status =
+        targets && sources ? derive_vertices(context, mesh, targets, sources, out) : mt_context_error(context)->status;
     mt_free(context, targets);
     mt_free(context, sources);
-    mt_free(context, padded);
     return status;
 }
 
