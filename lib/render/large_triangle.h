@@ -36,7 +36,7 @@ MT_INLINE void draw_large_pixel(const mt_frame *frame, mt_tile *tile, const larg
         any |= doubts[g];
     }
     if (__builtin_expect(mt_any_lane(&any), 0)) {
-        settle_groups(frame, tile, s->base.number, x, y, doubts, group_count);
+        mt_settle_groups(frame, tile, s->base.number, x, y, doubts, group_count);
     }
 }
 
