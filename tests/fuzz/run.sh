@@ -26,6 +26,7 @@ for format in "${targets[@]}"; do
   while IFS= read -r file; do
     cp -n "$file" "$corpus/seed-$(basename "$file")"
   done < <(find "$root/meshes" -name "*.$format" -size -64k 2>/dev/null)
+  [[ $format == scene ]] && cp -n "$root"/meshes/scenes/*.json "$corpus"/
   dictionary=()
   [[ -f $root/tests/fuzz/$format.dict ]] && dictionary=("-dict=$root/tests/fuzz/$format.dict")
   echo "== $format, $seconds s"
