@@ -33,7 +33,8 @@ typedef struct mt_draco_attribute {
     mt_type type;
     unsigned component_count;
     bool normalized;
-    unsigned bits;      /* when encoding floats: quantised to so many, 1 to 30; 0: as they are */
+    unsigned bits;      /* when encoding floats: quantised to so many, 1 to 30; 0, or where their extent is beyond what
+                           floats can divide by: as they are */
     uint32_t id;        /* by which containers name it; when encoding its place among the attributes */
     const void *values; /* when encoding: vertex_count * component_count numbers; decoded: NULL */
 } mt_draco_attribute;

@@ -5,6 +5,8 @@
 
 #include <draco/compression/expert_encode.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <new>
 
@@ -34,8 +36,80 @@ void add_attributes(const mt_draco_source *source, draco::PointCloud *cloud)
     }
 }
 
+// Whether Draco's quantising of the values is defined: it divides by their largest extent, as a float.
+bool can_quantise(const mt_draco_attribute *attribute, size_t value_count)
+{
+    const float *values = static_cast<const float *>(attribute->values);
+    float range = 0.0F;
+    for (size_t k = 0; k < attribute->component_count; k++) {
+        float least = value_count > 0 ? values[k] : 0.0F, most = least;
+        for (size_t i = 1; i < value_count; i++) {
+            float value = values[i * attribute->component_count + k];
+            least = std::min(least, value);
+            most = std::max(most, value);
+        }
+        range = std::max(range, most - least);
+    }
+    float steps = static_cast<float>((uint32_t{1} << attribute->bits) - 1);
+    return std::isfinite(range) && (range == 0.0F || std::isfinite(steps / range));
+}
+
+bool is_quantised(const mt_draco_source *source, const mt_draco_attribute *attribute)
+{
+    return attribute->type == MT_F32 && attribute->bits > 0 && can_quantise(attribute, source->vertex_count);
+}
+
+// One more than the largest symbol of values between these two, which may be differences of either sign.
+uint64_t symbols_between(int64_t least, int64_t most)
+{
+    return 2 * static_cast<uint64_t>(most - least) + 2;
+}
+
+template <typename number> uint64_t count_symbols(const void *values, size_t count)
+{
+    const number *of = static_cast<const number *>(values);
+    int64_t least = count > 0 ? of[0] : 0, most = least;
+    for (size_t i = 1; i < count; i++) {
+        least = std::min<int64_t>(least, of[i]);
+        most = std::max<int64_t>(most, of[i]);
+    }
+    return symbols_between(least, most);
+}
+
+// Draco counts how often each symbol stands in an attribute, in a table from 0 to the largest.
+uint64_t symbol_bound(const mt_draco_source *source, const mt_draco_attribute *attribute)
+{
+    size_t count = source->vertex_count * static_cast<size_t>(attribute->component_count);
+    switch (attribute->type) {
+    case MT_F32:
+        return is_quantised(source, attribute) ? symbols_between(0, (int64_t{1} << attribute->bits) - 1) : 0;
+    case MT_F64:
+        return 0;
+    case MT_U32:
+        return count_symbols<uint32_t>(attribute->values, count);
+    case MT_I32:
+        return count_symbols<int32_t>(attribute->values, count);
+    default:
+        return symbols_between(0, UINT16_MAX);
+    }
+}
+
+// Of the attribute that needs the most of them.
+uint64_t symbol_bound(const mt_draco_source *source)
+{
+    uint64_t most = 0;
+    for (size_t i = 0; i < source->attribute_count; i++) {
+        most = std::max(most, symbol_bound(source, &source->attributes[i]));
+    }
+    return most;
+}
+
+// With more symbols than this the table would be larger than what it saves: whole bytes are written.
+constexpr uint64_t most_symbols = uint64_t{1} << 24;
+
 void set_options(const mt_draco_source *source, draco::ExpertEncoder *encoder, bool points)
 {
+    encoder->SetUseBuiltInAttributeCompression(symbol_bound(source) <= most_symbols);
     int speed = static_cast<int>(source->speed);
     encoder->SetSpeedOptions(speed, speed);
     encoder->SetTrackEncodedProperties(true);
@@ -44,7 +118,7 @@ void set_options(const mt_draco_source *source, draco::ExpertEncoder *encoder, b
                                                     : static_cast<int>(draco::MESH_EDGEBREAKER_ENCODING));
     for (size_t i = 0; i < source->attribute_count && source->vertex_count > 0; i++) {
         const mt_draco_attribute *attribute = &source->attributes[i];
-        if (attribute->type == MT_F32 && attribute->bits > 0) {
+        if (is_quantised(source, attribute)) {
             encoder->SetAttributeQuantization(static_cast<int>(i), static_cast<int>(attribute->bits));
         }
     }
@@ -103,6 +177,7 @@ try {
             (attribute->component_count * mt_type_size(attribute->type) + 16) * value_copies * source->vertex_count +
             source->triangle_count * seam_bytes;
     }
+    bytes += sizeof(uint32_t) * std::min(symbol_bound(source), most_symbols);
     return hold(user, bytes) ? encode(source, allocate, user, out, message) : MT_DRACO_REFUSED;
 } catch (const std::bad_alloc &) {
     return MT_DRACO_NO_MEMORY;

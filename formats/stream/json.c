@@ -141,6 +141,16 @@ static bool is_utf16(const char *text, size_t size)
     return size >= 2 && (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0);
 }
 
+/* jansson holds whole numbers in 64 bits; where one needs more, all are read as reals. */
+static json_t *load(const char *text, size_t size, json_error_t *error)
+{
+    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, error);
+    if (!root && json_error_code(error) == json_error_numeric_overflow) {
+        root = json_loadb(text, size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, error);
+    }
+    return root;
+}
+
 mt_status mt_json_parse(mt_context *context, const char *name, const void *bytes, size_t size, mt_json *out)
 {
     const char *text = bytes;
@@ -168,7 +178,7 @@ mt_status mt_json_parse(mt_context *context, const char *name, const void *bytes
         return status;
     }
     json_error_t error;
-    json_t *root = json_loadb(text + mark, size - mark, JSON_REJECT_DUPLICATES, &error);
+    json_t *root = load(text + mark, size - mark, &error);
     if (!root) {
         mt_release_bytes(context, seen.bound);
         error.position += (int)mark;
