@@ -45,7 +45,9 @@ static mt_status sort(mt_context *context, mt_picture *picture, const mt_frame *
         return mt_fail(context, MT_ERROR_TOO_LARGE, "the mesh has too many faces and lines for one picture");
     }
     const mt_camera *camera = &picture->frame->camera;
-    int part = mt_part_begin(context, "tile lists", "triangles, lines and dots sorted by 32 x 32 pixels");
+    int part = mt_part_begin(context, "tile lists",
+                             picture->rays ? "lines and dots sorted by 32 x 32 pixels"
+                                           : "triangles, lines and dots sorted by 32 x 32 pixels");
     mt_index triangle_count = picture->rays ? 0 : picture->frame->model->triangulation.triangle_count;
     const mt_binned binned[] = {{frame, triangle_count, triangle_range, triangle_narrow},
                                 {&picture->strokes, picture->strokes.count, stroke_range, stroke_narrow},
