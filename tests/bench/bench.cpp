@@ -263,10 +263,12 @@ int main(int argc, char **argv)
         std::fprintf(
             stderr,
             "bench: no such case; there are reading, connectivity, one-ring, normals, check, self-intersection, "
-            "subdivision, preview, rays, structures, closest\n");
+            "subdivision, preview, preview-process, rays, structures, closest, scene\n");
     }
     if (csv) {
+        std::string path = csv;
         bench::write_csv(csv);
+        bench::write_markdown(path.find('/') == std::string::npos ? "." : path.substr(0, path.rfind('/')));
     }
     return result;
 }

@@ -58,6 +58,9 @@ void run_closest();
 
 const std::vector<Row> &rows();
 
+// Writes bench.md, rows of about a million faces, and bench-all.md, all rows, into a folder that is there.
+void write_markdown(const std::string &folder);
+
 // A context with one thread for preparing inputs.
 mt_context *shared_context();
 
