@@ -50,20 +50,44 @@ typedef struct signed_range {
     mt_index inside_count;
 } signed_range;
 
+#define SIGN_BLOCK_SIZE 1024
+
+typedef struct sign_search {
+    const mt_mesh *points;
+    const mt_signed_distance *surface;
+    double *distances;
+} sign_search;
+
+static void search_signs(void *user, uint64_t begin, uint64_t end)
+{
+    const sign_search *search = user;
+    for (uint64_t i = begin; i < end; i++) {
+        search->distances[i] =
+            mt_signed_distance_at(search->surface, mt_mesh_position(search->points, (mt_index)i), NULL);
+    }
+}
+
+static void find_range(const double *distances, mt_index count, signed_range *out)
+{
+    out->deepest = out->farthest = NAN;
+    for (mt_index i = 0; i < count; i++) {
+        out->deepest = fmin(out->deepest, distances[i]);
+        out->farthest = fmax(out->farthest, distances[i]);
+        out->inside_count += distances[i] < 0;
+    }
+}
+
 static mt_status measure_signs(mt_context *context, const mt_mesh *a, const mt_mesh *b, signed_range *out)
 {
-    mt_signed_distance *signed_distance = NULL;
-    mt_status status = mt_signed_distance_create(context, b, &signed_distance);
-    out->deepest = out->farthest = NAN;
+    mt_signed_distance *surface = NULL;
+    mt_status status = mt_signed_distance_create(context, b, &surface);
     out->distances = status == MT_OK ? mt_allocate_array(context, a->vertex_count, sizeof(double)) : NULL;
-    for (mt_index i = 0; out->distances && i < a->vertex_count; i++) {
-        double d = mt_signed_distance_at(signed_distance, mt_mesh_position(a, i), NULL);
-        out->distances[i] = d;
-        out->deepest = fmin(out->deepest, d);
-        out->farthest = fmax(out->farthest, d);
-        out->inside_count += d < 0;
+    if (out->distances) {
+        sign_search search = {a, surface, out->distances};
+        mt_parallel_for(context, a->vertex_count, SIGN_BLOCK_SIZE, search_signs, &search);
+        find_range(out->distances, a->vertex_count, out);
     }
-    mt_signed_distance_destroy(context, signed_distance);
+    mt_signed_distance_destroy(context, surface);
     return status != MT_OK || out->distances ? status : MT_ERROR_OUT_OF_MEMORY;
 }
 
