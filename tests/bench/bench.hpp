@@ -12,9 +12,10 @@ namespace bench
 {
 
 struct Sample {
-    double seconds = 0;     // median
-    double spread = 0;      // (maximum - minimum) / median
-    std::uint64_t peak = 0; // most resident bytes above those before the run, the largest of the runs
+    double seconds = 0; // median
+    double spread = 0;  // (maximum - minimum) / median
+    // Most resident bytes above those before the run, or of a process that the run started; the largest of the runs.
+    std::uint64_t peak = 0;
 };
 
 struct Row {
@@ -22,6 +23,7 @@ struct Row {
     std::uint64_t faces = 0;
     Sample ours, ours_all, theirs; // one thread, all threads, the peer
     double error = -1;             // largest difference to the peer; negative: none can be named
+    std::uint64_t bytes = 0;       // of the file, when its rate is to stand in the note
     std::string note;
     const double *verdict = nullptr; // where the peer's runs leave the error; else it is given
 };
@@ -43,6 +45,9 @@ struct Case {
     void (*run)();
 };
 void run_reading();
+void run_writing();
+void run_convert();
+void run_images();
 void run_connectivity();
 void run_one_ring();
 void run_normals();
@@ -67,9 +72,12 @@ mt_context *shared_context();
 // A closed, wavy torus of about `faces` triangles (or quads), f64, vertices in file order or shuffled.
 mt_mesh *wavy_torus(std::uint64_t faces, bool quads, bool shuffled);
 
-// Whether a program can be started, and what runs it without its output; a failure ends the bench.
+// Whether a program can be started, and what runs it without its output and notes its memory; a failure ends the bench.
 bool installed(const std::string &program);
 void run_quietly(const std::string &command);
+
+// A new folder for files, which the caller removes.
+std::string make_scratch_folder();
 
 // Fails loudly: a benchmark of a failed operation measures nothing.
 void require(mt_context *context, mt_status status);

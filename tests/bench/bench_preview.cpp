@@ -100,11 +100,7 @@ void preview_ours(mt_context *context, const std::string &in, const std::string 
 
 void run_preview()
 {
-    std::string folder = (std::filesystem::temp_directory_path() / "meshtool-bench-XXXXXX").string();
-    if (!mkdtemp(folder.data())) {
-        std::perror("bench: mkdtemp");
-        std::exit(1);
-    }
+    std::string folder = make_scratch_folder();
     std::string in = folder + "/mesh.ply", out = folder + "/mesh.png";
     for (std::uint64_t size : sizes) {
         mt_mesh *mesh = wavy_torus(size, false, false);

@@ -84,11 +84,7 @@ void beside(const char *peer, const std::string &folder, const std::string &thei
 
 void run_preview_process()
 {
-    std::string folder = (std::filesystem::temp_directory_path() / "meshtool-bench-XXXXXX").string();
-    if (!mkdtemp(folder.data())) {
-        std::perror("bench: mkdtemp");
-        std::exit(1);
-    }
+    std::string folder = make_scratch_folder();
     mt_mesh *mesh = wavy_torus(face_count, false, false);
     require(shared_context(), mt_mesh_set_position_type(shared_context(), mesh, MT_F32, nullptr));
     std::string ply = folder + "/mesh.ply";

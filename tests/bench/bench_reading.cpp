@@ -91,7 +91,7 @@ void compare_on(const mt_mesh *source, const std::string &folder, const char *ex
     row.name = std::string("read ") + extension;
     row.mesh = "torus";
     row.faces = source->face_count;
-    row.note = std::to_string(std::filesystem::file_size(path) / 1000000) + " MB";
+    row.bytes = std::filesystem::file_size(path);
     auto ours = [&path](mt_context *with) {
         mt_mesh *mesh = nullptr;
         require(with, mt_mesh_read_file(with, path.c_str(), nullptr, &mesh, nullptr));
@@ -117,11 +117,7 @@ void compare_on(const mt_mesh *source, const std::string &folder, const char *ex
 
 void run_reading()
 {
-    std::string folder = (std::filesystem::temp_directory_path() / "meshtool-bench-XXXXXX").string();
-    if (!mkdtemp(folder.data())) {
-        std::perror("bench: mkdtemp");
-        std::exit(1);
-    }
+    std::string folder = make_scratch_folder();
     for (std::uint64_t size : sizes) {
         mt_mesh *mesh = wavy_torus(size, false, false);
         require(shared_context(), mt_mesh_set_position_type(shared_context(), mesh, MT_F32, nullptr));
