@@ -253,12 +253,11 @@ const cli_command cli_info_command = {
     .usage = "FILE...",
     .summary = "Show counts, bounds, attributes and sizes of meshes",
     .description = "Sizes are of positions and faces, by formula: separate triangles take 9 numbers a triangle, an "
-                   "indexed mesh 3 a "
-                   "vertex and 3 a triangle; coordinates have the mesh's precision, indices 4 bytes. Edges are half "
-                   "the corners, as "
-                   "in a closed mesh; structures of triangles take those that n-gons are cut into. Nothing is built "
-                   "for it. Formats "
-                   "are without their headers, and text without a formula.",
+                   "indexed mesh 3 a vertex and 3 a triangle; coordinates have the mesh's precision, indices 4 bytes. "
+                   "Strips are told as if one sufficed, fans as if each had six triangles, restarts counted. Edges are "
+                   "half the corners, as in a closed mesh; structures of triangles take those that n-gons are cut "
+                   "into. Nothing is built for it. Formats are without their headers, and text without a formula. "
+                   "With --measure all are built, strips as `meshtool strips` makes them.",
     .examples = "  meshtool info cow.obj\n"
                 "  meshtool info *.ply --json\n"
                 "  meshtool info cow.obj --measure\n",

@@ -2,6 +2,7 @@
 #include <meshtool/storage.h>
 
 #include <meshtool/halfedge.h>
+#include <meshtool/strips.h>
 #include <meshtool/triangle_neighbor.h>
 #include <meshtool/triangulate.h>
 #include <meshtool/winged_edge.h>
@@ -31,6 +32,10 @@ mt_storage mt_storage_by_formula(const mt_mesh *mesh, mt_storage_kind kind, uint
         [MT_STORAGE_INDEXED_POLYGONS] = {"indexed_polygons", "indexed polygons",
                                          n.offsets ? "3 n_v + corners + n_f + 1" : "3 n_v + corners", 3 * n.vertices,
                                          n.corners + n.offsets},
+        [MT_STORAGE_TRIANGLE_STRIPS] = {"triangle_strips", "triangle strips", "3 n_v + n_t + 2", 3 * n.vertices,
+                                        n.triangles ? n.triangles + 2 : 0},
+        [MT_STORAGE_TRIANGLE_FANS] = {"triangle_fans", "triangle fans", "3 n_v + 1.5 n_t", 3 * n.vertices,
+                                      (3 * n.triangles + 1) / 2},
         [MT_STORAGE_TRIANGLE_NEIGHBOR] = {"triangle_neighbor", "triangle neighbors", "4 n_v + 6 n_t", 3 * n.vertices,
                                           n.vertices + 6 * n.triangles},
         [MT_STORAGE_TRIANGLE_NEIGHBOR_PLAIN] = {"triangle_neighbor_plain", "the same, plain", "4 n_v + 6 n_t",
@@ -89,6 +94,28 @@ static mt_status build_indexed(mt_context *context, const mt_mesh *mesh, uint64_
 static uint64_t position_bytes(const mt_mesh *mesh)
 {
     return 3 * (uint64_t)mesh->vertex_count * mt_type_size(mesh->position_type);
+}
+
+static mt_status build_runs(mt_context *context, const mt_mesh *mesh, mt_strip_kind kind, uint64_t *bytes)
+{
+    mt_strip_options options = {.kind = kind};
+    mt_strips *strips = NULL;
+    mt_status status = mt_strips_create(context, mesh, &options, &strips);
+    if (status == MT_OK) {
+        *bytes = mt_strips_index_count(strips) * sizeof(mt_index) + position_bytes(mesh);
+    }
+    mt_strips_destroy(context, strips);
+    return status;
+}
+
+static mt_status build_strips(mt_context *context, const mt_mesh *mesh, uint64_t *bytes)
+{
+    return build_runs(context, mesh, MT_STRIP_KIND_STRIP, bytes);
+}
+
+static mt_status build_fans(mt_context *context, const mt_mesh *mesh, uint64_t *bytes)
+{
+    return build_runs(context, mesh, MT_STRIP_KIND_FAN, bytes);
 }
 
 static mt_status build_triangle_neighbor(mt_context *context, const mt_mesh *mesh, uint64_t *bytes)
@@ -157,6 +184,8 @@ static const struct {
     [MT_STORAGE_SEPARATE_TRIANGLES] = {build_separate, true},
     [MT_STORAGE_INDEXED_MESH] = {build_indexed, true},
     [MT_STORAGE_INDEXED_POLYGONS] = {build_indexed, false},
+    [MT_STORAGE_TRIANGLE_STRIPS] = {build_strips, false},
+    [MT_STORAGE_TRIANGLE_FANS] = {build_fans, false},
     [MT_STORAGE_TRIANGLE_NEIGHBOR] = {build_triangle_neighbor, true},
     [MT_STORAGE_TRIANGLE_NEIGHBOR_PLAIN] = {build_plain, true},
     [MT_STORAGE_WINGED_EDGE] = {build_winged_edge, false},

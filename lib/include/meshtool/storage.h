@@ -14,15 +14,19 @@ typedef enum mt_storage_kind {
     MT_STORAGE_SEPARATE_TRIANGLES, /* three points each */
     MT_STORAGE_INDEXED_MESH,       /* points, and three indices a triangle */
     MT_STORAGE_INDEXED_POLYGONS,   /* points, an index a corner, and where faces begin unless all have as many sides */
-    MT_STORAGE_TRIANGLE_NEIGHBOR,  /* the indexed triangles with the side across each side in one number, and a corner a
-                                      vertex */
+    MT_STORAGE_TRIANGLE_STRIPS, /* points, and strips in one buffer of indices (meshtool/strips.h, fast); by formula as
+                                   if one strip sufficed, which is the least */
+    MT_STORAGE_TRIANGLE_FANS,   /* points, and fans in one buffer; by formula as if all were six triangles, the
+                                   neighbourhood of a regular vertex: nine indices with the restart */
+    MT_STORAGE_TRIANGLE_NEIGHBOR, /* the indexed triangles with the side across each side in one number, and a corner a
+                                     vertex */
     MT_STORAGE_TRIANGLE_NEIGHBOR_PLAIN, /* the triangle across each side, without its side, and a triangle a vertex */
     MT_STORAGE_WINGED_EDGE,             /* points, eight indices an edge, one a vertex and one a face */
     MT_STORAGE_HALF_EDGE /* points, three indices a half-edge (its pair has a number next to its own), one a vertex and
                             one a face */
 } mt_storage_kind;
 
-#define MT_STORAGE_COUNT 7
+#define MT_STORAGE_COUNT 9
 
 typedef struct mt_storage {
     const char *key;      /* "half_edge" */
@@ -49,7 +53,8 @@ static inline uint64_t mt_storage_bytes(const mt_mesh *mesh, const mt_storage *s
     return storage->coordinates * mt_type_size(mesh->position_type) + storage->indices * sizeof(mt_index);
 }
 
-/* Builds it, stores the bytes that the context holds for it, and drops it. Positions count; what a mesh carries beside
+/* Builds it, stores the bytes that the context holds for it (of strips and fans those of the buffer), and drops it.
+ * Positions count; what a mesh carries beside
  * them and faces does not. A record of the structure's own (mt_halfedge_mesh ...) comes on top of the formula. The
  * builder's failure where the mesh is not manifold or oriented alike; MT_ERROR_OUT_OF_MEMORY, MT_ERROR_CANCELLED. */
 mt_status mt_storage_measure(mt_context *context, const mt_mesh *mesh, mt_storage_kind kind, uint64_t *bytes);
