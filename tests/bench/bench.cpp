@@ -136,6 +136,7 @@ const Case cases[] = {
     {"connectivity", run_connectivity},
     {"one-ring", run_one_ring},
     {"normals", run_normals},
+    {"strips", run_strips},
     {"check", run_check},
     {"self-intersection", run_self_intersection},
     {"subdivision", run_subdivision},

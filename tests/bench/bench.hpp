@@ -51,6 +51,7 @@ void run_images();
 void run_connectivity();
 void run_one_ring();
 void run_normals();
+void run_strips();
 void run_check();
 void run_self_intersection();
 void run_subdivision();
