@@ -64,8 +64,12 @@ void run_closest();
 
 const std::vector<Row> &rows();
 
-// Writes bench.md, rows of about a million faces, and bench-all.md, all rows, into a folder that is there.
+// Writes bench.md, rows of about a million faces, bench-all.md, all rows, and bench-strips.md into a folder that is
+// there.
 void write_markdown(const std::string &folder);
+
+// Writes the lengths of strips as a table of Markdown, if they were measured.
+void write_strips(const std::string &path);
 
 // A context with one thread for preparing inputs.
 mt_context *shared_context();

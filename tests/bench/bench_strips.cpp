@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 namespace bench
@@ -190,7 +191,7 @@ void time_on(Lengths &lengths, const mt_mesh *mesh, const std::vector<unsigned> 
     Row row;
     row.mesh = lengths.mesh;
     row.faces = lengths.triangles;
-    row.name = "strips fast";
+    row.name = "strips fast, " + lengths.mesh;
     row.peer = "mo cache";
     row.note = note(lengths.fast, lengths.cache_order);
     compare(row, run_ours(mesh, false), [&] { stripify(vertices, mesh->vertex_count, true); });
@@ -203,7 +204,7 @@ void time_on(Lengths &lengths, const mt_mesh *mesh, const std::vector<unsigned> 
     row.note = note(lengths.fast, lengths.openmesh);
     compare(row, run_ours(mesh, false), [&] { strips_of_openmesh(openmesh); });
     lengths.openmesh_seconds = rows().back().theirs.seconds;
-    row.name = "strips thorough";
+    row.name = "strips thorough, " + lengths.mesh;
     row.note = note(lengths.thorough, lengths.openmesh);
     compare_once(row, run_ours(mesh, true), [&] { strips_of_openmesh(openmesh); });
     lengths.thorough_seconds = rows().back().ours.seconds;
@@ -245,29 +246,36 @@ std::vector<Lengths> compare_file(const std::string &path)
 
 // ---- The table ----
 
-void print_length(const Length &length)
+std::string formatted(const char *format, double number)
 {
-    std::printf(length.lost ? " %.4f (%llu lost) |" : " %.4f |", length.indices_per_triangle,
-                static_cast<unsigned long long>(length.lost));
+    char text[32];
+    std::snprintf(text, sizeof text, format, number);
+    return text;
 }
 
-void print_table(const std::vector<Lengths> &table)
+void write_length(std::ostream &out, const Length &length)
 {
-    std::printf(
-        "\n| indices a triangle, restarts counted | triangles | thorough | fast | meshoptimizer, its cache order "
-        "| meshoptimizer, file order | OpenMesh | thorough under the best peer | ms thorough | fast "
-        "| meshoptimizer, its cache order | OpenMesh |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-    for (const Lengths &row : table) {
-        std::printf("| %s | %llu |", row.mesh.c_str(), static_cast<unsigned long long>(row.triangles));
-        for (const Length *length : {&row.thorough, &row.fast, &row.cache_order, &row.file_order, &row.openmesh}) {
-            print_length(*length);
-        }
-        std::printf(" %.1f %% | %.3g | %.3g | %.3g | %.3g |\n",
-                    100 * (1 - row.thorough.indices_per_triangle / best_peer(row)), 1e3 * row.thorough_seconds,
-                    1e3 * row.fast_seconds, 1e3 * row.cache_order_seconds, 1e3 * row.openmesh_seconds);
+    out << ' ' << formatted("%.4f", length.indices_per_triangle);
+    if (length.lost) {
+        out << " (" << length.lost << " lost)";
     }
-    std::printf("\n");
+    out << " |";
 }
+
+void write_lengths(std::ostream &out, const Lengths &row)
+{
+    out << "| " << row.mesh << " | " << row.triangles << " |";
+    for (const Length *length : {&row.thorough, &row.fast, &row.cache_order, &row.file_order, &row.openmesh}) {
+        write_length(out, *length);
+    }
+    out << ' ' << formatted("%.1f %%", 100 * (1 - row.thorough.indices_per_triangle / best_peer(row))) << " |";
+    for (double seconds : {row.thorough_seconds, row.fast_seconds, row.cache_order_seconds, row.openmesh_seconds}) {
+        out << ' ' << formatted(seconds < 0.1 ? "%.2f" : "%.0f", 1e3 * seconds) << " |";
+    }
+    out << '\n';
+}
+
+std::vector<Lengths> table;
 
 } // namespace
 
@@ -283,12 +291,26 @@ void run_strips()
     }
     std::sort(own.begin(), own.end());
     paths.insert(paths.end(), own.begin(), own.end());
-    std::vector<Lengths> table;
     for (const std::string &path : paths) {
         auto found = compare_file(path);
         table.insert(table.end(), found.begin(), found.end());
     }
-    print_table(table);
+}
+
+void write_strips(const std::string &path)
+{
+    if (table.empty()) {
+        return;
+    }
+    std::ofstream out(path);
+    out << "| mesh | triangles | thorough | fast | meshoptimizer, its cache order | meshoptimizer, file order | "
+           "OpenMesh "
+           "| thorough under the best peer | ms thorough | ms fast | ms meshoptimizer, its cache order | ms OpenMesh "
+           "|\n"
+           "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    for (const Lengths &row : table) {
+        write_lengths(out, row);
+    }
 }
 
 } // namespace bench

@@ -1,4 +1,4 @@
-// The rows as tables of Markdown, for README: those in sight, and all.
+// The rows as tables of Markdown, for README: those in sight, and all; and strips, whose length counts.
 #include "tests/bench/bench.hpp"
 
 #include <fstream>
@@ -75,6 +75,7 @@ void write_markdown(const std::string &folder)
 {
     write_table(folder + "/bench.md", false);
     write_table(folder + "/bench-all.md", true);
+    write_strips(folder + "/bench-strips.md");
 }
 
 } // namespace bench
