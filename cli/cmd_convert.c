@@ -132,7 +132,10 @@ static const cli_option options[] = {
 static cli_exit triangulate(const cli_job *job, mt_mesh **mesh)
 {
     mt_mesh *triangles = NULL;
-    if (mt_mesh_triangulate(job->context, *mesh, &triangles) != MT_OK) {
+    int part = mt_part_begin(job->context, "triangles", "asked for");
+    mt_status status = mt_mesh_triangulate(job->context, *mesh, &triangles);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }
     mt_mesh_destroy(job->context, *mesh);
@@ -143,7 +146,10 @@ static cli_exit triangulate(const cli_job *job, mt_mesh **mesh)
 static cli_exit weld(const cli_job *job, mt_mesh *mesh)
 {
     mt_index removed = 0;
-    if (mt_mesh_weld(job->context, mesh, &removed) != MT_OK) {
+    int part = mt_part_begin(job->context, "weld", "asked for");
+    mt_status status = mt_mesh_weld(job->context, mesh, &removed);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }
     cli_say(job, "%s: welding joined %s to others", job->operands[0], cli_counted(removed, "vertex").text);
@@ -153,6 +159,7 @@ static cli_exit weld(const cli_job *job, mt_mesh *mesh)
 static cli_exit change(const cli_job *job, mt_mesh **mesh)
 {
     const convert_settings *settings = job->settings;
+    mt_part_skip(job->context, "connectivity", "no format holds more than faces and their corners");
     cli_exit code = settings->weld ? weld(job, *mesh) : CLI_EXIT_DONE;
     if (code != CLI_EXIT_DONE) {
         return code;

@@ -80,6 +80,7 @@ static void find_range(const double *distances, mt_index count, signed_range *ou
 static mt_status measure_signs(mt_context *context, const mt_mesh *a, const mt_mesh *b, signed_range *out)
 {
     mt_signed_distance *surface = NULL;
+    int part = mt_part_begin(context, "signs", "asked for");
     mt_status status = mt_signed_distance_create(context, b, &surface);
     out->distances = status == MT_OK ? mt_allocate_array(context, a->vertex_count, sizeof(double)) : NULL;
     if (out->distances) {
@@ -88,6 +89,7 @@ static mt_status measure_signs(mt_context *context, const mt_mesh *a, const mt_m
         find_range(out->distances, a->vertex_count, out);
     }
     mt_signed_distance_destroy(context, surface);
+    mt_part_end(context, part);
     return status != MT_OK || out->distances ? status : MT_ERROR_OUT_OF_MEMORY;
 }
 
@@ -189,6 +191,9 @@ static cli_exit compare(const cli_job *job, const mt_mesh *a, const mt_mesh *b)
     mt_deviation deviation = {0};
     signed_range range = {0};
     cli_exit code = CLI_EXIT_DONE;
+    if (!settings->is_signed) {
+        mt_part_skip(job->context, "signs", "--signed asks for them");
+    }
     if (settings->is_signed && measure_signs(job->context, a, b, &range) != MT_OK) {
         code = cli_report_failure(job, job->operands[1]);
     } else if (mt_measure_deviation(job->context, a, b, &how, &deviation) != MT_OK) {

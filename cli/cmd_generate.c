@@ -130,7 +130,10 @@ static cli_exit make(const cli_job *job)
         .position_type = settings->common.precision == MT_PRECISION_F32 ? MT_F32 : MT_F64,
     };
     mt_mesh *mesh = NULL;
-    if (mt_generate(job->context, job->operands[0], &how, &mesh) != MT_OK) {
+    int part = mt_part_begin(job->context, "mesh", "asked for");
+    mt_status status = mt_generate(job->context, job->operands[0], &how, &mesh);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, NULL);
     }
     json_t *lost = NULL;

@@ -130,7 +130,10 @@ static cli_exit read_image(const cli_job *job, mt_image **image, mt_image_source
 {
     mt_image_read_options how = {.format = cli_extension(job->common->from)};
     const char *path = job->operands[0];
-    if (mt_image_read_file(job->context, path, &how, image, source) != MT_OK) {
+    int part = mt_part_begin(job->context, "input", "a picture to change");
+    mt_status status = mt_image_read_file(job->context, path, &how, image, source);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, path);
     }
     cli_say(job, "%s: read %s, %u x %u pixels of %u x %u bits", path, source->format->title, (*image)->width,

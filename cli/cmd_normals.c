@@ -92,7 +92,11 @@ static cli_exit add_and_write(const cli_job *job, mt_mesh *mesh, const mt_mesh_f
 {
     mt_normal_options how = choose(job->settings);
     mt_normal_report report;
-    if (mt_mesh_add_normals(job->context, mesh, &how, &report) != MT_OK) {
+    int part = mt_part_begin(job->context, "normals", "asked for");
+    mt_part_skip(job->context, "edge pairs", "a normal needs the faces around its vertex, and no edges");
+    mt_status status = mt_mesh_add_normals(job->context, mesh, &how, &report);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }
     if (report.undefined_count) {

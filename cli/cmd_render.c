@@ -175,7 +175,10 @@ static cli_exit run(const cli_job *job)
     if (code != CLI_EXIT_DONE) {
         return code;
     }
-    if (mt_scene_read_file(job->context, job->operands[0], &file) != MT_OK) {
+    int part = mt_part_begin(job->context, "input", "the scene and its files");
+    mt_status status = mt_scene_read_file(job->context, job->operands[0], &file);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }
     code = draw(job, mt_scene_file_scene(file), written);

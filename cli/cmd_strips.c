@@ -178,10 +178,16 @@ static cli_exit write_and_tell(const cli_job *job, const mt_mesh *mesh, const mt
     const cli_common *common = job->common;
     mt_strip_write_options how = {.format = cli_extension(common->to), .no_clobber = common->no_clobber};
     strips_report report;
-    if (measure(job->context, strips, &report) != MT_OK) {
+    int part = mt_part_begin(job->context, "vertex cache", "how well the strips use it");
+    mt_status status = measure(job->context, strips, &report);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }
-    if (mt_strips_write_file(job->context, mesh, strips, common->output, &how) != MT_OK) {
+    part = mt_part_begin(job->context, "output", "asked for");
+    status = mt_strips_write_file(job->context, mesh, strips, common->output, &how);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, common->output);
     }
     cli_exit code = CLI_EXIT_DONE;
@@ -204,8 +210,10 @@ static cli_exit optimize(const cli_job *job, mt_mesh **mesh)
 {
     const strips_settings *settings = job->settings;
     mt_mesh *ordered = NULL;
+    int part = mt_part_begin(job->context, "order", "asked for");
     mt_status status = settings->optimize == OPTIMIZE_CACHE ? mt_mesh_order_faces(job->context, *mesh, &ordered)
                                                             : mt_mesh_order_vertices(job->context, *mesh, &ordered);
+    mt_part_end(job->context, part);
     if (status != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }
@@ -233,7 +241,9 @@ static cli_exit run(const cli_job *job)
     if (code == CLI_EXIT_DONE) {
         mt_strip_options how = {(mt_strip_kind)settings->kind, (mt_strip_join)settings->join,
                                 settings->thorough || cli_profile_of(job->common)->is_thorough};
+        int part = mt_part_begin(job->context, "strips", "asked for");
         mt_status status = mt_strips_create(job->context, mesh, &how, &strips);
+        mt_part_end(job->context, part);
         code = status == MT_OK ? write_and_tell(job, mesh, strips) : cli_report_failure(job, job->operands[0]);
     }
     mt_strips_destroy(job->context, strips);

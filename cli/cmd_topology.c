@@ -209,6 +209,9 @@ static cli_exit show(const cli_job *job, topology_view *view)
     const topology_settings *settings = job->settings;
     view->kind = &cli_connectivities[settings->structure];
     void *structure = NULL;
+    if (!settings->split) {
+        mt_part_skip(job->context, "split vertices", "--split-non-manifold was not asked for");
+    }
     if (view->kind->create(job->context, view->mesh, &structure) != MT_OK) {
         return cli_report_failure(job, job->operands[0]);
     }

@@ -79,7 +79,9 @@ static mt_status measure(const tradeoff_subject *subject, const tradeoff_knob *o
     for (size_t i = 0; status == MT_OK && tradeoff_knobs[i]; i++) {
         if (!only || only == tradeoff_knobs[i]) {
             double share = only ? settings->budget : settings->budget / (double)knob_count();
+            int part = mt_part_begin(subject->job->context, tradeoff_knobs[i]->name, tradeoff_knobs[i]->question);
             status = tradeoff_measure(subject, tradeoff_knobs[i], share, table);
+            mt_part_end(subject->job->context, part);
         }
     }
     return status;

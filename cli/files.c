@@ -157,7 +157,10 @@ cli_exit cli_read_mesh(const cli_job *job, const char *path, mt_mesh **out, cons
         .format = cli_extension(job->common->from),
         .precision = (mt_precision)job->common->precision,
     };
-    if (mt_mesh_read_file(job->context, path, &options, out, format) != MT_OK) {
+    int part = mt_part_begin(job->context, "input", "a mesh to work on");
+    mt_status status = mt_mesh_read_file(job->context, path, &options, out, format);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, path);
     }
     cli_say(job, "%s: read %s with %s and %s", path, (*format)->title, cli_counted((*out)->vertex_count, "vertex").text,
@@ -208,7 +211,10 @@ cli_exit cli_write_mesh_compressed(const cli_job *job, const mt_mesh *mesh, cons
 {
     mt_mesh_write_options options = mesh_write_options(job, draco);
     mt_loss loss = {0};
-    if (mt_mesh_write_file(job->context, mesh, path, &options, &loss) != MT_OK) {
+    int part = mt_part_begin(job->context, "output", "asked for");
+    mt_status status = mt_mesh_write_file(job->context, mesh, path, &options, &loss);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, path);
     }
     char text[64];
@@ -236,7 +242,10 @@ cli_exit cli_write_image_as(const cli_job *job, const mt_image *image, const cha
     mt_image_write_options options = *how;
     options.format = cli_extension(job->common->to);
     options.no_clobber = job->common->no_clobber;
-    if (mt_image_write_file(job->context, image, path, &options) != MT_OK) {
+    int part = mt_part_begin(job->context, "output", "asked for");
+    mt_status status = mt_image_write_file(job->context, image, path, &options);
+    mt_part_end(job->context, part);
+    if (status != MT_OK) {
         return cli_report_failure(job, path);
     }
     cli_say(job, "%s: wrote %u x %u pixels", path, image->width, image->height);

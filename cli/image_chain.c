@@ -179,8 +179,10 @@ cli_exit cli_chain_apply(const cli_job *job, const cli_image_chain *chain, mt_im
     for (size_t i = 0; i < chain->count; i++) {
         const cli_image_step *step = &chain->steps[i];
         mt_image *made = NULL;
+        int part = mt_part_begin(job->context, step->operation->name, "asked for");
         mt_status status = step->operation->change ? step->operation->change(job->context, *image, step)
                                                    : step->operation->make(job->context, *image, step, &made);
+        mt_part_end(job->context, part);
         if (status != MT_OK) {
             return cli_report_failure(job, job->operands[0]);
         }

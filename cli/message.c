@@ -70,25 +70,6 @@ void cli_print_warning(void *user, const char *sentence)
     }
 }
 
-void cli_print_parts(const mt_context *context)
-{
-    size_t count = 0;
-    const mt_part *parts = mt_context_parts(context, &count);
-    cli_progress_clear();
-    for (size_t i = 0; i < count; i++) {
-        const mt_part *part = &parts[i];
-        if (part->built || part->milliseconds > 0) {
-            fprintf(stderr, "%-8s %-28s %10.2f ms %12s", part->built ? "built" : "saved", part->name,
-                    part->milliseconds, cli_bytes(part->bytes).text);
-        } else {
-            fprintf(stderr, "skipped  %-28s %10s    %12s", part->name, "", "");
-        }
-        fprintf(stderr, part->reason ? "  %s\n" : "\n", part->reason);
-    }
-    fprintf(stderr, "peak     %-28s %13s %12s\n", "memory held at once", "",
-            cli_bytes(mt_context_peak_bytes(context)).text);
-}
-
 cli_exit cli_finish_output(cli_exit code)
 {
     errno = 0;

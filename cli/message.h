@@ -17,8 +17,8 @@ void cli_say(const cli_job *job, const char *format, ...) MT_PRINTF(2, 3);
 /* For mt_context_options.warning; user is the cli_common. */
 void cli_print_warning(void *user, const char *sentence);
 
-/* The table behind --explain. */
-void cli_print_parts(const mt_context *context);
+/* What --explain says, on standard error: a table, or one line of JSON. */
+void cli_print_parts(const mt_context *context, bool json);
 
 /* Flushes standard output; a failure is said and returned as CLI_EXIT_IO, otherwise `code` is. */
 cli_exit cli_finish_output(cli_exit code);

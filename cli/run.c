@@ -40,7 +40,7 @@ static cli_exit run_in_context(cli_job *job)
     }
     cli_exit code = job->command->run(job);
     if (common->explain || common->measure) {
-        cli_print_parts(job->context);
+        cli_print_parts(job->context, common->json);
     }
     cli_progress_clear();
     mt_context_destroy(job->context);

@@ -38,6 +38,7 @@ static mt_status run_steps(repair_state *state, const mt_repair_options *options
         mt_repair_result *result = &report->results[step];
         result->asked = options->steps[step];
         if (!result->asked) {
+            mt_part_skip(state->context, steps[step].option, "not asked for");
             continue;
         }
         mt_status status = mt_progress(state->context, "repairing", (double)step / MT_REPAIR_STEP_COUNT);

@@ -224,6 +224,9 @@ static mt_status make_result(mt_context *context, mt_subdivide_state *state, uns
         return status == MT_OK ? move_to_limit(context, state, *result) : status;
     }
     mt_status status = refine_levels(context, state, level_count, result);
+    if (!state->settings.limit) {
+        mt_part_skip(context, "limit", "not asked for");
+    }
     if (status == MT_OK) {
         status = finish_result(context, state, level_count, *result);
     }

@@ -20,6 +20,7 @@ struct mt_context {
     double part_begins[MT_PART_CAPACITY]; /* milliseconds */
     uint64_t part_bytes[MT_PART_CAPACITY];
     size_t part_count;
+    uint64_t parts_left_out;
     int measured_part; /* 1 + the token of a skipped part that is being measured: what it is made of is not recorded */
 };
 

@@ -12,7 +12,11 @@ static double milliseconds_now(void)
 
 static mt_part *add_part(mt_context *context, const char *name, const char *reason)
 {
-    if (!context->options.explain || context->part_count == MT_PART_CAPACITY || context->measured_part) {
+    if (!context->options.explain || context->measured_part) {
+        return NULL;
+    }
+    if (context->part_count == MT_PART_CAPACITY) {
+        context->parts_left_out++;
         return NULL;
     }
     mt_part *part = &context->parts[context->part_count++];
@@ -67,4 +71,9 @@ const mt_part *mt_context_parts(const mt_context *context, size_t *count)
 {
     *count = context->part_count;
     return context->parts;
+}
+
+uint64_t mt_context_parts_left_out(const mt_context *context)
+{
+    return context->parts_left_out;
 }

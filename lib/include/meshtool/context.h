@@ -138,6 +138,8 @@ int mt_part_begin_skipped(mt_context *context, const char *name, const char *rea
 void mt_part_skip(mt_context *context, const char *name, const char *reason);
 /* The parts so far, in the order of their beginning; *count receives their number. */
 const mt_part *mt_context_parts(const mt_context *context, size_t *count);
+/* Parts that came after the first 64, which is as many as are kept. */
+uint64_t mt_context_parts_left_out(const mt_context *context);
 
 #ifdef __cplusplus
 }
