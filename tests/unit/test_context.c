@@ -193,6 +193,13 @@ static void parts_are_recorded_when_asked(void **state)
     assert_int_equal(parts[0].bytes, 1234);
     assert_true(parts[0].built && !parts[1].built);
     mt_free(context, block);
+    assert_int_equal(mt_context_parts_left_out(context), 0);
+    for (int i = 0; i < 100; i++) {
+        mt_part_skip(context, "rays", NULL);
+    }
+    mt_context_parts(context, &count);
+    assert_int_equal(count + mt_context_parts_left_out(context), 102);
+    assert_true(mt_context_parts_left_out(context) > 0);
     test_context_end(context);
     context = test_context();
     mt_part_end(context, mt_part_begin(context, "tree", NULL));
