@@ -27,6 +27,10 @@ static mt_status read_file(const scene_reading *reading, const mt_json_node *nod
         return mt_json_fail(reading->context, &member, MT_ERROR_SYNTAX,
                             "\"%.80s\" is an absolute path; expected one relative to the scene's folder", file);
     }
+    if (strcmp(file, "-") == 0) {
+        return mt_json_fail(reading->context, &member, MT_ERROR_SYNTAX,
+                            "\"-\" would be standard input; expected the path of a file (\"./-\" is one of that name)");
+    }
     char *path = path_beside(reading, file);
     mt_status status =
         path ? mt_mesh_read_file(reading->context, path, NULL, out, NULL) : mt_context_error(reading->context)->status;

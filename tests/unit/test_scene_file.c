@@ -61,6 +61,7 @@ static const struct {
      "materials.g.refractive_index: expected a number from 1 to 10, got 0.5"},
     {"\"meshes\": {\"m\": {}},", 2, 17, "meshes.m: expected either the key \"file\" or the key \"generate\""},
     {"\"meshes\": {\"m\": {\"file\": \"/etc/passwd\"}},", 2, 26, "is an absolute path"},
+    {"\"meshes\": {\"m\": {\"file\": \"-\"}},", 2, 26, "meshes.m.file: \"-\" would be standard input"},
     {"\"meshes\": {\"m\": {\"generate\": \"teacup\"}},", 2, 30, "meshes.m.generate: expected a kind"},
     {"\"meshes\": {\"m\": {\"generate\": \"cube\", \"resolution\": 4}},", 2, 52, "\"cube\" has no resolution"},
     {"\"meshes\": {\"m\": {\"generate\": \"torus\", \"resolution\": 1}},", 2, 53, "expected a whole number from"},
