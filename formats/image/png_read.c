@@ -6,12 +6,13 @@
 #ifdef MESHTOOL_PNG
 #include "formats/image/samples.h"
 
+#include <errno.h>
 #include <spng.h>
 #include <string.h>
 
 #define DEFLATE_RATIO 1032                  /* no byte of deflate makes more than so many */
 #define DECODER_BYTES ((uint64_t)256 << 10) /* of libspng and zlib, besides rows and chunks */
-#define CHUNK_CACHE ((size_t)16 << 20)      /* bytes of side chunks, expanded, that are kept */
+#define CHUNK_CACHE ((uint64_t)16 << 20)    /* most bytes of side chunks, expanded, that are kept */
 
 typedef struct png_reader {
     mt_context *context;
@@ -26,6 +27,7 @@ typedef struct png_reader {
     mt_sample_layout layout;
     uint32_t channel_count; /* of the picture */
     size_t row_size;
+    uint64_t cache; /* bytes of side chunks that libspng may keep */
 } png_reader;
 
 static int read_stream(spng_ctx *png, void *user, void *bytes, size_t size)
@@ -47,8 +49,13 @@ static mt_status check(png_reader *reader, int error)
         return reader->status;
     }
     mt_place place = mt_input_place_offset(reader->input, mt_input_offset(reader->input));
-    if (error == SPNG_EMEM) {
+    if (error == SPNG_EMEM || errno == ENOMEM) { /* zlib's want of memory has no code of its own */
         return mt_fail_at(reader->context, MT_ERROR_OUT_OF_MEMORY, place, "no memory for the PNG decoder");
+    }
+    if (error == SPNG_ECHUNK_LIMITS) {
+        return mt_fail_at(reader->context, MT_ERROR_TOO_LARGE, place,
+                          "what is written beside the picture expands to more than %llu bytes",
+                          (unsigned long long)reader->cache);
     }
     if (error == SPNG_IO_EOF) {
         return mt_fail_at(reader->context, MT_ERROR_SYNTAX, place, "the file ends here, expected more of the picture");
@@ -199,7 +206,7 @@ static mt_status read_rows(png_reader *reader, mt_image *image)
 static mt_status read_picture(png_reader *reader, mt_image **out)
 {
     int error = spng_set_png_stream(reader->png, read_stream, reader);
-    error = error ? error : spng_set_chunk_limits(reader->png, CHUNK_CACHE, CHUNK_CACHE);
+    error = error ? error : spng_set_chunk_limits(reader->png, reader->cache, reader->cache);
     mt_status status = check(reader, error);
     if (status == MT_OK) {
         status = read_header(reader);
@@ -214,6 +221,23 @@ static mt_status read_picture(png_reader *reader, mt_image **out)
     return status == MT_OK ? read_rows(reader, *out) : status;
 }
 
+/* What the side chunks may become: most are kept as they are, profiles and texts may be deflated, and the room for
+ * those doubles as it grows. */
+static uint64_t bound_side_chunks(const mt_input *input)
+{
+    static const char *const deflated[] = {"iCCP", "zTXt", "iTXt"};
+    uint64_t size = mt_input_size(input), bound = size;
+    uint8_t head[8];
+    for (uint64_t at = 8; at < size && mt_input_read_at(input, at, head, sizeof head) == sizeof head;) {
+        uint64_t length = (uint64_t)head[0] << 24 | (uint64_t)head[1] << 16 | (uint64_t)head[2] << 8 | head[3];
+        for (size_t i = 0; i < sizeof deflated / sizeof deflated[0]; i++) {
+            bound += memcmp(head + 4, deflated[i], 4) == 0 ? 2 * length * DEFLATE_RATIO : 0;
+        }
+        at += length + sizeof head + 4;
+    }
+    return bound < CHUNK_CACHE ? bound : CHUNK_CACHE;
+}
+
 mt_status mt_png_read(mt_context *context, mt_input *input, mt_image **out, unsigned *bits)
 {
     png_reader reader = {.context = context, .input = input};
@@ -221,13 +245,14 @@ mt_status mt_png_read(mt_context *context, mt_input *input, mt_image **out, unsi
     if (status != MT_OK) {
         return status;
     }
-    /* Two rows, and the side chunks that are kept, which the file's bytes bound. */
-    uint64_t size = mt_input_size(input);
-    uint64_t held = DECODER_BYTES + 2 * size;
+    /* Two rows, and the side chunks. */
+    reader.cache = bound_side_chunks(input);
+    uint64_t held = DECODER_BYTES + 2 * mt_input_size(input) + reader.cache;
     status = mt_hold_bytes(context, held);
     if (status != MT_OK) {
         return status;
     }
+    errno = 0;
     reader.png = spng_ctx_new(0);
     if (reader.png) {
         status = read_picture(&reader, out);

@@ -27,6 +27,9 @@ static mt_status fail_to_write(const tiff_writer *writer)
     if (writer->file.is_full) {
         return mt_context_error(writer->context)->status;
     }
+    if (writer->file.is_short) {
+        return mt_fail(writer->context, MT_ERROR_OUT_OF_MEMORY, "no memory for the TIFF encoder");
+    }
     return mt_fail(writer->context, MT_ERROR_UNSUPPORTED, "the picture cannot be written as TIFF: %s",
                    writer->file.message[0] ? writer->file.message : "libtiff refuses it");
 }

@@ -1,8 +1,11 @@
 #ifdef MESHTOOL_TIFF
 #include "formats/image/tiff_file.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+
+#define PROBE_SIZE ((uint64_t)64 << 10)
 
 static tmsize_t read_bytes(thandle_t handle, void *bytes, tmsize_t size)
 {
@@ -76,6 +79,7 @@ static int keep_error(TIFF *tiff, void *user, const char *module, const char *fo
 {
     (void)tiff, (void)module;
     mt_tiff_file *file = (mt_tiff_file *)user;
+    file->is_short = file->is_short || errno == ENOMEM;
     if (!file->message[0]) {
         vsnprintf(file->message, sizeof file->message, format, arguments);
         file->message[strcspn(file->message, "\n")] = '\0';
@@ -92,8 +96,17 @@ static int drop_warning(TIFF *tiff, void *user, const char *module, const char *
 
 TIFF *mt_tiff_open(mt_tiff_file *file, const char *mode, uint64_t largest_block)
 {
+    /* libtiff 4.5 follows a null pointer where its first allocations fail: see that they do not. */
+    void *probe = mt_try_allocate(file->context, PROBE_SIZE);
+    mt_free(file->context, probe);
+    if (!probe) {
+        file->is_short = true;
+        return NULL;
+    }
+    errno = 0;
     TIFFOpenOptions *options = TIFFOpenOptionsAlloc();
     if (!options) {
+        file->is_short = true;
         return NULL;
     }
     TIFFOpenOptionsSetMaxSingleMemAlloc(options, (tmsize_t)largest_block);

@@ -12,6 +12,7 @@ typedef struct mt_tiff_file {
     uint64_t size, capacity; /* capacity 0: only to be read */
     uint64_t at;
     bool is_full;      /* no memory for what was to be written */
+    bool is_short;     /* libtiff failed for want of memory, for which it has no code */
     char message[256]; /* libtiff's first error */
 } mt_tiff_file;
 

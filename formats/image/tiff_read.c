@@ -39,6 +39,9 @@ static mt_status refuse(const tiff_reader *reader, const char *what, unsigned va
 static mt_status fail_in_tiff(const tiff_reader *reader)
 {
     mt_place place = {.file = mt_input_name(reader->input)};
+    if (reader->file.is_short) {
+        return mt_fail_at(reader->context, MT_ERROR_OUT_OF_MEMORY, place, "no memory for the TIFF decoder");
+    }
     return mt_fail_at(reader->context, MT_ERROR_SYNTAX, place, "the TIFF data is damaged or incomplete: %s",
                       reader->file.message[0] ? reader->file.message : "it has no picture");
 }

@@ -2,6 +2,7 @@
  */
 #include "formats/stream/json.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,15 +19,33 @@
 /* One look at the text, in step with a parser as long as the text is right. */
 typedef struct scan {
     uint64_t bound;
+    uint64_t string_bytes; /* of all strings and keys, escapes resolved */
     size_t depth;
     size_t too_deep; /* where the depth was first past MT_JSON_DEPTH; SIZE_MAX: nowhere */
 } scan;
 
-/* The byte after the string whose opening quote is at `at`. */
-static size_t skip_string(const char *text, size_t size, size_t at)
+/* Bytes in UTF-8 of the unit whose four digits are at `digits`; a half of a pair of surrogates is half of four. */
+static uint64_t unit_size(const char *digits)
+{
+    unsigned unit = 0;
+    for (int i = 0; i < 4; i++) {
+        unsigned c = (unsigned char)digits[i];
+        unit = 16 * unit + (c <= '9' ? c - '0' : c % 32 + 9);
+    }
+    bool is_surrogate = unit >= 0xD800 && unit < 0xE000;
+    return unit < 0x80 ? 1 : unit < 0x800 || is_surrogate ? 2 : 3;
+}
+
+/* The byte after the string whose opening quote is at `at`; adds its bytes to *bytes. */
+static size_t skip_string(const char *text, size_t size, size_t at, uint64_t *bytes)
 {
     for (at++; at < size && text[at] != '"'; at++) {
-        at += text[at] == '\\';
+        if (text[at] == '\\' && ++at < size && text[at] == 'u' && size - at > 4) {
+            *bytes += unit_size(text + at + 1);
+            at += 4;
+        } else {
+            ++*bytes;
+        }
     }
     return at < size ? at + 1 : size;
 }
@@ -38,7 +57,7 @@ static scan scan_text(const char *text, size_t size)
         size_t begin = at++;
         switch (text[begin]) {
         case '"':
-            at = skip_string(text, size, begin);
+            at = skip_string(text, size, begin, &s.string_bytes);
             s.bound += STRING_BYTES + TEXT_BYTES * (uint64_t)(at - begin);
             break;
         case '{':
@@ -106,7 +125,7 @@ static mt_status fail_parsing(mt_context *context, const char *name, const char 
                               const json_error_t *error)
 {
     enum json_error_code code = json_error_code(error);
-    if (code == json_error_out_of_memory) {
+    if (code == json_error_out_of_memory || errno == ENOMEM) {
         return mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "%s: out of memory while its JSON was parsed", name);
     }
     /* The position is that of the byte after what jansson read, and of the bad byte itself when it is no UTF-8. */
@@ -144,11 +163,30 @@ static bool is_utf16(const char *text, size_t size)
 /* jansson holds whole numbers in 64 bits; where one needs more, all are read as reals. */
 static json_t *load(const char *text, size_t size, json_error_t *error)
 {
+    errno = 0; /* jansson does not tell want of memory from text that is wrong */
     json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, error);
     if (!root && json_error_code(error) == json_error_numeric_overflow) {
         root = json_loadb(text, size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, error);
     }
     return root;
+}
+
+/* Bytes of all strings and keys. */
+static uint64_t string_bytes(json_t *value)
+{
+    uint64_t sum = 0;
+    if (json_is_string(value)) {
+        sum = json_string_length(value);
+    } else if (json_is_array(value)) {
+        for (size_t i = 0; i < json_array_size(value); i++) {
+            sum += string_bytes(json_array_get(value, i));
+        }
+    } else if (json_is_object(value)) {
+        for (void *at = json_object_iter(value); at; at = json_object_iter_next(value, at)) {
+            sum += strlen(json_object_iter_key(at)) + string_bytes(json_object_iter_value(at));
+        }
+    }
+    return sum;
 }
 
 mt_status mt_json_parse(mt_context *context, const char *name, const void *bytes, size_t size, mt_json *out)
@@ -183,6 +221,12 @@ mt_status mt_json_parse(mt_context *context, const char *name, const void *bytes
         mt_release_bytes(context, seen.bound);
         error.position += (int)mark;
         return fail_parsing(context, name, text, size, &error);
+    }
+    /* Where jansson has no memory for the next byte of a string it goes on without that byte. */
+    if (string_bytes(root) != seen.string_bytes) {
+        json_decref(root);
+        mt_release_bytes(context, seen.bound);
+        return mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "%s: out of memory while a string of its JSON was read", name);
     }
     out->root = root;
     out->held = seen.bound;
