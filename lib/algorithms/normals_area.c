@@ -74,8 +74,21 @@ MT_INLINE bool touches(const block_task *task, const mt_index *vertices, mt_inde
     return false;
 }
 
-/* `inside`: all vertices of the block lie in the range, and near each other. size: sides of every face, or 0. */
-MT_INLINE bool add_faces(const block_task *task, mt_index size, bool is_double, bool inside)
+/* The slow way writes to a vector of its own, so that the other one can stay in registers. */
+MT_INLINE mt_vec3 area_vector_of(const mt_mesh *mesh, mt_index face, const mt_index *vertices, mt_index sides,
+                                 bool is_double, bool *fits)
+{
+    mt_vec3 n;
+    if (!mt_plain_area_vector(mesh->positions, is_double, vertices, sides, &n)) {
+        mt_vec3 found;
+        *fits = find_area_vector(mesh, face, &found) && *fits;
+        n = found;
+    }
+    return n;
+}
+
+/* `inside`: all vertices of the block lie in the range; `near`: near each other. size: sides of every face, or 0. */
+MT_INLINE bool add_faces(const block_task *task, mt_index size, bool is_double, bool inside, bool near)
 {
     const mt_mesh *mesh = task->mesh;
     double *sums = task->sums;
@@ -84,16 +97,13 @@ MT_INLINE bool add_faces(const block_task *task, mt_index size, bool is_double, 
     for (mt_index face = task->face; face < task->face_end; face++) {
         const mt_index *vertices = mesh->corner_vertices + (size ? size * face : mt_mesh_face_begin(mesh, face));
         mt_index sides = size ? size : mt_mesh_face_sides(mesh, face);
-        if (!inside && size && face < ahead) {
+        if (!near && size && face < ahead) {
             fetch_face(task, vertices + (size_t)size * LOOK_AHEAD, size, is_double);
         }
         if (!inside && !touches(task, vertices, sides)) {
             continue;
         }
-        mt_vec3 n;
-        if (!mt_plain_area_vector(mesh->positions, is_double, vertices, sides, &n)) {
-            fits = find_area_vector(mesh, face, &n) && fits;
-        }
+        mt_vec3 n = area_vector_of(mesh, face, vertices, sides, is_double, &fits);
         for (mt_index i = 0; i < sides; i++) {
             if (inside || vertices[i] - task->begin < task->count) {
                 add_at(sums, vertices[i], n);
@@ -103,17 +113,28 @@ MT_INLINE bool add_faces(const block_task *task, mt_index size, bool is_double, 
     return fits;
 }
 
-static bool add_block(const block_task *task, bool inside)
+static bool add_triangles_f64(const block_task *task, bool inside, bool near)
+{
+    return !inside ? add_faces(task, 3, true, false, false)
+           : near  ? add_faces(task, 3, true, true, true)
+                   : add_faces(task, 3, true, true, false);
+}
+
+static bool add_triangles_f32(const block_task *task, bool inside, bool near)
+{
+    return !inside ? add_faces(task, 3, false, false, false)
+           : near  ? add_faces(task, 3, false, true, true)
+                   : add_faces(task, 3, false, true, false);
+}
+
+static bool add_block(const block_task *task, bool inside, bool near)
 {
     const mt_mesh *mesh = task->mesh;
     bool is_double = mesh->position_type == MT_F64;
     if (mesh->face_offsets || mesh->face_size != 3) {
-        return add_faces(task, 0, is_double, inside);
+        return add_faces(task, 0, is_double, inside, near);
     }
-    if (is_double) {
-        return inside ? add_faces(task, 3, true, true) : add_faces(task, 3, true, false);
-    }
-    return inside ? add_faces(task, 3, false, true) : add_faces(task, 3, false, false);
+    return is_double ? add_triangles_f64(task, inside, near) : add_triangles_f32(task, inside, near);
 }
 
 static mt_index block_end(const mt_mesh *mesh, mt_index begin)
@@ -134,24 +155,31 @@ static void add_range(void *user, uint64_t number, uint64_t end)
     for (const face_block *block = area->blocks; task.face < mesh->face_count; block++, task.face = task.face_end) {
         task.face_end = block_end(mesh, task.face);
         bool apart = block->high < begin || block->low >= begin + count;
-        bool inside = block->low >= begin && block->high < begin + count && block->high - block->low < WIDE_BLOCK;
-        fits = (apart || add_block(&task, inside)) && fits;
+        bool inside = block->low >= begin && block->high < begin + count;
+        bool near = block->high - block->low < WIDE_BLOCK;
+        fits = (apart || add_block(&task, inside, near)) && fits;
     }
     area->out_of_range[number] = !fits;
+}
+
+static MT_CLONES void find_lowest_and_highest(const mt_index *vertices, mt_index count, face_block *block)
+{
+    mt_index low = MT_NONE, high = 0;
+    for (mt_index i = 0; i < count; i++) {
+        low = vertices[i] < low ? vertices[i] : low;
+        high = vertices[i] > high ? vertices[i] : high;
+    }
+    block->low = low;
+    block->high = high;
 }
 
 static void find_block(void *user, uint64_t begin, uint64_t end)
 {
     const area_job *area = user;
     const mt_mesh *mesh = area->job->mesh;
-    mt_index corner_end = mt_mesh_face_end(mesh, (mt_index)end - 1);
-    face_block block = {MT_NONE, 0};
-    for (mt_index corner = mt_mesh_face_begin(mesh, (mt_index)begin); corner < corner_end; corner++) {
-        mt_index vertex = mesh->corner_vertices[corner];
-        block.low = vertex < block.low ? vertex : block.low;
-        block.high = vertex > block.high ? vertex : block.high;
-    }
-    area->blocks[begin / FACE_BLOCK] = block;
+    mt_index corner = mt_mesh_face_begin(mesh, (mt_index)begin);
+    mt_index corner_count = mt_mesh_face_end(mesh, (mt_index)end - 1) - corner;
+    find_lowest_and_highest(mesh->corner_vertices + corner, corner_count, &area->blocks[begin / FACE_BLOCK]);
 }
 
 /* A range for each thread, unless that many would do the same work several times. */
