@@ -102,6 +102,7 @@ void cli_signals_init(void)
     action.sa_handler = SIG_IGN;
     action.sa_flags = 0;
     sigaction(SIGPIPE, &action, NULL);
+    sigaction(SIGXFSZ, &action, NULL); /* a file that may not grow is an error of writing */
 }
 
 int cli_signal_received(void)
