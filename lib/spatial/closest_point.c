@@ -72,7 +72,7 @@ MT_INLINE uint32_t approach_children(const nearest_walk *walk, const mt_surface_
         y = y > 0 ? y : 0;
         z = z > 0 ? z : 0;
         near[lane] = (x * x + y * y + z * z) * BELOW;
-        passes[lane] = near[lane] <= limit ? 1 << lane : 0;
+        passes[lane] = near[lane] <= limit ? -1 : 0;
     }
     return mt_bits_of(passes);
 }
@@ -145,7 +145,7 @@ MT_INLINE uint32_t filter_elements(const nearest_walk *walk, const float *rows, 
         bool is_outside = low < -4 * wrong * (root * sqrtf(sides) + sides);
         float square = is_outside ? side : foot_square;
         near[lane] = sqrtf(square) - (is_outside ? margin : margin + root * wrong / divisor);
-        passes[lane] = near[lane] > best ? 0 : 1 << lane; /* NaN passes: infinities met */
+        passes[lane] = near[lane] > best ? 0 : -1; /* NaN passes: infinities met */
     }
     return mt_bits_of(passes);
 }
@@ -188,15 +188,16 @@ MT_CLONES static void walk_depth_first(nearest_walk *walk, mt_pending start)
     stack[0] = start;
     while (depth) {
         mt_pending item = stack[--depth];
-        if (item.near > walk->limit) {
+        if (mt_pending_near(item) > walk->limit) {
             continue;
         }
-        if (item.child & MT_SURFACE_LEAF) {
-            visit_leaf(walk, item.child);
+        uint32_t child = mt_pending_child(item);
+        if (child & MT_SURFACE_LEAF) {
+            visit_leaf(walk, child);
             continue;
         }
         float near[MT_WIDTH];
-        const mt_surface_node *node = &walk->tree->nodes[item.child];
+        const mt_surface_node *node = &walk->tree->nodes[child];
         if (walk->element == MT_NONE) {
             bound_by_boxes(walk, node);
         }
@@ -207,7 +208,7 @@ MT_CLONES static void walk_depth_first(nearest_walk *walk, mt_pending start)
 
 static void heap_push(mt_pending *heap, size_t at, mt_pending item)
 {
-    while (at && heap[(at - 1) / 2].near > item.near) {
+    while (at && heap[(at - 1) / 2] > item) {
         heap[at] = heap[(at - 1) / 2];
         at = (at - 1) / 2;
     }
@@ -221,8 +222,8 @@ static mt_pending heap_pop(mt_pending *heap, size_t size)
     size_t at = 0;
     for (;;) {
         size_t child = 2 * at + 1;
-        child += child + 1 < size - 1 && heap[child + 1].near < heap[child].near;
-        if (child >= size - 1 || heap[child].near >= last.near) {
+        child += child + 1 < size - 1 && heap[child + 1] < heap[child];
+        if (child >= size - 1 || heap[child] >= last) {
             break;
         }
         heap[at] = heap[child];
@@ -233,17 +234,16 @@ static mt_pending heap_pop(mt_pending *heap, size_t size)
 }
 
 /* Opens a node into the heap; false when there was no room for all of its children, and none was put in. */
-MT_CLONES static bool open_node(nearest_walk *walk, const mt_pending *item, mt_pending *heap, size_t *size)
+MT_CLONES static bool open_node(nearest_walk *walk, uint32_t child, mt_pending *heap, size_t *size)
 {
     float near[MT_WIDTH];
-    const mt_surface_node *node = &walk->tree->nodes[item->child];
+    const mt_surface_node *node = &walk->tree->nodes[child];
     uint32_t bits = approach_children(walk, node, near);
     if (*size + MT_WIDTH > HEAP_SIZE) {
         return false;
     }
     for (; bits; bits &= bits - 1) {
-        int slot = __builtin_ctz(bits);
-        heap_push(heap, (*size)++, (mt_pending){near[slot], node->children[slot]});
+        heap_push(heap, (*size)++, mt_pending_first(node, near, bits));
     }
     return true;
 }
@@ -252,13 +252,14 @@ static void walk_best_first(nearest_walk *walk)
 {
     mt_pending heap[HEAP_SIZE];
     size_t size = 1;
-    heap[0] = (mt_pending){0, 0};
+    heap[0] = mt_pending_make(0, 0);
     while (size) {
         mt_pending item = heap_pop(heap, size--);
-        if (item.near > walk->limit) {
+        if (mt_pending_near(item) > walk->limit) {
             return;
         }
-        if ((item.child & MT_SURFACE_LEAF) || !open_node(walk, &item, heap, &size)) {
+        uint32_t child = mt_pending_child(item);
+        if ((child & MT_SURFACE_LEAF) || !open_node(walk, child, heap, &size)) {
             walk_depth_first(walk, item);
         }
     }
@@ -309,7 +310,7 @@ bool mt_surface_tree_closest(const mt_surface_tree *tree, mt_vec3 point, const m
     if (options->order == MT_CLOSEST_BEST_FIRST) {
         walk_best_first(&walk);
     } else {
-        walk_depth_first(&walk, (mt_pending){0, 0});
+        walk_depth_first(&walk, mt_pending_make(0, 0));
     }
     if (walk.element == MT_NONE) {
         return false;

@@ -168,16 +168,15 @@ typedef struct sheared {
     double x[3], y[3], z[3];
 } sheared;
 
-static sheared shear_corners(const mt_ray_setup *setup, const mt_ray_triangle *triangle)
+/* Not returned as a value: a copy of what has just been written number by number waits for all of it. */
+static void shear_corners(const mt_ray_setup *setup, const mt_ray_triangle *triangle, sheared *s)
 {
-    sheared s;
     for (int i = 0; i < 3; i++) {
         const double *p = triangle->corners[i];
-        s.z[i] = p[setup->axes[2]] - setup->origin[2];
-        s.x[i] = MT_RAY_SHEAR(p[setup->axes[0]] - setup->origin[0], s.z[i], setup->shear[0]);
-        s.y[i] = MT_RAY_SHEAR(p[setup->axes[1]] - setup->origin[1], s.z[i], setup->shear[1]);
+        s->z[i] = p[setup->axes[2]] - setup->origin[2];
+        s->x[i] = MT_RAY_SHEAR(p[setup->axes[0]] - setup->origin[0], s->z[i], setup->shear[0]);
+        s->y[i] = MT_RAY_SHEAR(p[setup->axes[1]] - setup->origin[1], s->z[i], setup->shear[1]);
     }
-    return s;
 }
 
 /* Weights of the point on the sides that is nearest to the ray: for slivers that the ray misses by no more than what
@@ -259,7 +258,8 @@ static bool weigh_areas(const mt_ray_setup *setup, const sheared *s, int sign, d
 /* Weights of the corners and t for a triangle that is hit, as decided with that sign. */
 static void solve(const mt_ray_setup *setup, const mt_ray_triangle *triangle, int sign, mt_ray_hit *hit)
 {
-    sheared s = shear_corners(setup, triangle);
+    sheared s;
+    shear_corners(setup, triangle, &s);
     if (!weigh_areas(setup, &s, sign, hit->weights)) {
         weigh_sides(&s, hit->weights);
     }

@@ -72,7 +72,7 @@ MT_INLINE uint32_t enter_children(const ray_walk *walk, const mt_surface_node *n
         leaves = y < leaves ? y : leaves;
         leaves = z < leaves ? z : leaves;
         near[lane] = enters;
-        passes[lane] = enters <= leaves ? 1 << lane : 0;
+        passes[lane] = enters <= leaves ? -1 : 0;
     }
     return mt_bits_of(passes);
 }
@@ -114,13 +114,13 @@ MT_INLINE uint32_t filter_edges(const ray_walk *walk, const leaf_view *view, boo
         low = w < low ? w : low;
         high = w > high ? w : high;
         if (!has_margin) {
-            passes[lane] = ((low >= 0) | (high <= 0)) ? 1 << lane : 0;
+            passes[lane] = ((low >= 0) | (high <= 0)) ? -1 : 0;
             continue;
         }
         float size = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) + fabsf(cx) + fabsf(cy);
         float margin = slack * (size + slack) * 2;
         bool is_met = (low >= -margin) | (high <= margin);
-        passes[lane] = is_met ? 1 << lane : 0;
+        passes[lane] = is_met ? -1 : 0;
     }
     return mt_bits_of(passes);
 }
@@ -142,7 +142,7 @@ MT_INLINE uint32_t filter_fast(const ray_walk *walk, const leaf_view *view)
         float sign = determinant < 0 ? -1.0f : 1.0f;
         u *= sign, v *= sign, determinant *= sign;
         bool is_met = (determinant > 0) & (u >= 0) & (v >= 0) & (u + v <= determinant);
-        passes[lane] = is_met ? 1 << lane : 0;
+        passes[lane] = is_met ? -1 : 0;
     }
     return mt_bits_of(passes);
 }
@@ -208,7 +208,8 @@ MT_INLINE void prefetch_child(const mt_surface_tree *tree, uint32_t child)
     __builtin_prefetch(at + 128);
 }
 
-/* Descends to the nearest child met and leaves the others on the stack; MT_SURFACE_UNUSED: none was met. */
+/* Descends to the nearest child met and leaves the others on the stack; MT_SURFACE_UNUSED: none was met. Two children
+ * are the most frequent case that is not plain, and ordered without a branch. */
 MT_INLINE uint32_t descend(const ray_walk *walk, uint32_t child, mt_pending *stack, size_t *depth)
 {
     float near[MT_WIDTH];
@@ -217,12 +218,20 @@ MT_INLINE uint32_t descend(const ray_walk *walk, uint32_t child, mt_pending *sta
     if (!bits) {
         return MT_SURFACE_UNUSED;
     }
-    if (!(bits & (bits - 1))) {
+    uint32_t others = bits & (bits - 1);
+    if (!others) {
         return node->children[__builtin_ctz(bits)];
     }
+    if (!(others & (others - 1))) {
+        mt_pending a = mt_pending_first(node, near, bits), b = mt_pending_first(node, near, others);
+        mt_pending far = a < b ? b : a;
+        stack[(*depth)++] = far;
+        prefetch_child(walk->tree, mt_pending_child(far));
+        return mt_pending_child(a < b ? a : b);
+    }
     *depth = mt_push_children(node, near, bits, stack, *depth);
-    prefetch_child(walk->tree, stack[*depth - 2].child);
-    return stack[--*depth].child;
+    prefetch_child(walk->tree, mt_pending_child(stack[*depth - 2]));
+    return mt_pending_child(stack[--*depth]);
 }
 
 MT_CLONES static void walk_tree(ray_walk *walk)
@@ -242,8 +251,8 @@ MT_CLONES static void walk_tree(ray_walk *walk)
                 return;
             }
             depth--;
-        } while (stack[depth].near > walk->limit);
-        child = stack[depth].child;
+        } while (mt_pending_near(stack[depth]) > walk->limit);
+        child = mt_pending_child(stack[depth]);
     }
 }
 
