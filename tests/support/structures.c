@@ -71,18 +71,34 @@ typedef struct difference {
 typedef struct comparison {
     const test_structures *structures;
     uint64_t seed;
-    uint64_t *counts;   /* per block */
-    difference *firsts; /* per block */
+    uint64_t brute_step; /* every so many rays are tried on all triangles, the others by the first tree's answer */
+    uint64_t *counts;    /* per block */
+    difference *firsts;  /* per block */
 } comparison;
 
 #define RAYS_A_BLOCK 1024
 
-static void compare_ray(const comparison *job, uint64_t block, const mt_ray *ray)
+static mt_ray_hit expected_hit(const comparison *job, const mt_ray *ray, bool is_brute)
 {
     const test_target *target = &job->structures->target;
-    mt_ray_hit expected = test_brute_force(target, ray);
+    mt_ray_hit hit;
+    if (is_brute) {
+        return test_brute_force(target, ray);
+    }
+    return mt_ray_structure_nearest_hit(job->structures->all[MT_RAY_STRUCTURE_AABB], ray, target->profile, &hit)
+               ? hit
+               : mt_ray_no_hit();
+}
+
+static void compare_ray(const comparison *job, uint64_t block, const mt_ray *ray, bool is_brute)
+{
+    const test_target *target = &job->structures->target;
+    mt_ray_hit expected = expected_hit(job, ray, is_brute);
     for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
         mt_ray_hit hit;
+        if (kind == MT_RAY_STRUCTURE_NONE && !is_brute) {
+            continue;
+        }
         bool found = mt_ray_structure_nearest_hit(job->structures->all[kind], ray, target->profile, &hit);
         bool any = mt_ray_structure_any_hit(job->structures->all[kind], ray, target->profile);
         if (!is_same_hit(&hit, &expected) || found != (expected.triangle != MT_NONE) || any != found) {
@@ -100,7 +116,7 @@ static void compare_rays(void *user, uint64_t begin, uint64_t end)
     for (uint64_t i = begin; i < end; i++) {
         mt_ray ray = has_triangles && i % 2 ? test_grazing_ray(&job->structures->target, &random)
                                             : test_random_ray(&job->structures->target, &random);
-        compare_ray(job, begin / RAYS_A_BLOCK, &ray);
+        compare_ray(job, begin / RAYS_A_BLOCK, &ray, i % job->brute_step == 0);
     }
 }
 
@@ -115,9 +131,15 @@ static void print_difference(const char *mesh, const difference *d)
 
 void test_structures_agree(const test_structures *structures, const char *mesh, uint64_t count, uint64_t seed)
 {
+    test_structures_agree_by_samples(structures, mesh, count, seed, 1);
+}
+
+void test_structures_agree_by_samples(const test_structures *structures, const char *mesh, uint64_t count,
+                                      uint64_t seed, uint64_t brute_step)
+{
     mt_context *context = structures->target.context;
     uint64_t blocks = count / RAYS_A_BLOCK + 1, sum = 0;
-    comparison job = {structures, seed, mt_allocate_array_zeroed(context, blocks, sizeof(uint64_t)),
+    comparison job = {structures, seed, brute_step, mt_allocate_array_zeroed(context, blocks, sizeof(uint64_t)),
                       mt_allocate_array_zeroed(context, blocks, sizeof(difference))};
     assert_non_null(job.counts);
     assert_non_null(job.firsts);
@@ -161,8 +183,8 @@ void test_structures_agree_on(const test_structures *structures, const char *mes
 {
     uint64_t count = 0;
     difference first = {.kind = 0};
-    const comparison job = {structures, 0, &count, &first};
-    compare_ray(&job, 0, ray);
+    const comparison job = {structures, 0, 1, &count, &first};
+    compare_ray(&job, 0, ray, true);
     if (count) {
         print_difference(mesh, &first);
         fail();

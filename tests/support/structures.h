@@ -23,6 +23,11 @@ mt_ray test_grazing_ray(const test_target *target, test_random *random);
  * disagrees. */
 void test_structures_agree(const test_structures *structures, const char *mesh, uint64_t count, uint64_t seed);
 
+/* The same, but only every `brute_step`th ray is tried on all triangles; of the others the structures are compared with
+ * the aabb tree. An odd step tries rays of both kinds. */
+void test_structures_agree_by_samples(const test_structures *structures, const char *mesh, uint64_t count,
+                                      uint64_t seed, uint64_t brute_step);
+
 /* The same for one ray. */
 void test_structures_agree_on(const test_structures *structures, const char *mesh, const mt_ray *ray);
 
