@@ -201,14 +201,23 @@ static mt_status draw_waiting(mt_context *context, draw_task *task, size_t tile_
     return status;
 }
 
+static const char *describe_pass(const draw_task *task, bool is_first)
+{
+    if (task->fine) {
+        return is_first ? "where the picture changes" : "where the picture changes, tiles that asked for a mesh";
+    }
+    return is_first ? "tile by tile, each until it asks for a mesh that is not built" : "tiles that asked for a mesh";
+}
+
 /* Draws all tiles, and builds what they ask for, until none waits. */
 static mt_status draw_all(mt_context *context, mt_scene_plan *plan, draw_task *task, size_t tile_count)
 {
-    bool any = true;
+    bool any = true, is_first = true;
     mt_status status = MT_OK;
     while (status == MT_OK && any) {
         int part =
-            mt_part_begin(context, "rays and shading", task->fine ? "where the picture changes" : "tile by tile");
+            mt_part_begin(context, is_first ? "rays and shading" : "rays, once more", describe_pass(task, is_first));
+        is_first = false;
         status = draw_waiting(context, task, tile_count);
         mt_part_end(context, part);
         if (status == MT_OK) {

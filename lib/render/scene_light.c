@@ -76,6 +76,9 @@ mt_vec3 mt_scene_light_of(mt_scene_tracer *tracer, const mt_scene_point *point, 
         if (light->casts_shadows) {
             arrives = times(arrives, light_through(tracer, point, light, media));
         }
+        if (mt_vec3_max_abs(arrives) == 0) {
+            continue;
+        }
         sum = mt_vec3_add(sum, times(arrives, mt_vec3_scale(point->color, opaque * m->diffuse * cosine)));
         if (is_glossy) {
             sum = mt_vec3_add(sum, times(arrives, mt_vec3_scale(m->specular, highlight_of(point, a.direction))));
