@@ -92,23 +92,21 @@ static void release(void *state, mt_context *context)
     mt_free(context, s);
 }
 
-/* As many as are asked for, unless the faces become too many to be judged. */
-static unsigned level_count(const level_state *s, size_t level)
+static const char *refuse(const void *state, size_t level)
 {
+    const level_state *s = state;
     uint64_t faces = s->cage->corner_count;
-    unsigned count = 0;
-    while (count < level && faces <= LEVEL_FACES) {
+    for (size_t i = 1; i < level; i++) {
         faces *= 4;
-        count++;
     }
-    return count;
+    return level == 0 || faces <= LEVEL_FACES ? NULL
+                                              : "its faces are too many to be told from the limit by a finer mesh";
 }
 
 static mt_status run(void *state, size_t level, mt_context *context)
 {
     level_state *s = state;
-    unsigned count = level_count(s, level);
-    mt_subdivide_options options = {.level_count = count, .no_levels = count == 0};
+    mt_subdivide_options options = {.level_count = (unsigned)level, .no_levels = level == 0};
     return mt_subdivide(context, s->cage, &options, &s->refined);
 }
 
@@ -121,19 +119,13 @@ static void discard(void *state, mt_context *context)
 
 static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_row *row)
 {
+    (void)level;
     const level_state *s = state;
     mt_deviation deviation;
     mt_deviation_options options = {.tolerance = TOLERANCE * s->diagonal};
     uint64_t bytes = (uint64_t)s->refined->vertex_count * 24 + (uint64_t)s->refined->corner_count * 4;
     tradeoff_add_size(row, "faces", s->refined->face_count);
     tradeoff_add_size(row, "bytes", (double)bytes);
-    if (level_count(s, level) < level) {
-        tradeoff_add_error(row, "hausdorff", (double)NAN);
-        tradeoff_add_error(row, "rms", (double)NAN);
-        tradeoff_add_error(row, "normal_degrees", (double)NAN);
-        snprintf(row->says, sizeof row->says, "not judged: its faces would be too many for the reference");
-        return MT_OK;
-    }
     mt_status status = mt_measure_deviation(context, s->refined, s->reference, &options, &deviation);
     if (status != MT_OK) {
         return status;
@@ -154,6 +146,7 @@ const tradeoff_knob tradeoff_levels = {
     .axis = "hausdorff",
     .levels = levels,
     .prepare = prepare,
+    .refuse = refuse,
     .run = run,
     .discard = discard,
     .judge = judge,

@@ -77,17 +77,32 @@ typedef struct session {
     const tradeoff_subject *subject;
     const tradeoff_knob *knob;
     void *state;
+    tradeoff_table *table;
     tradeoff_row *rows;
+    size_t levels[LEVEL_MAXIMUM]; /* those that are not left out, a row each */
     size_t level_count;
+    double patience; /* seconds after which a first run is stopped; 0: never */
+    double deadline; /* of the run at hand */
+    bool is_late;
     double times[LEVEL_MAXIMUM][RUN_MAXIMUM];
 } session;
 
+static bool in_time(void *user, const char *task, double fraction)
+{
+    (void)task;
+    (void)fraction;
+    session *s = user;
+    s->is_late = s->is_late || now() > s->deadline;
+    return !s->is_late;
+}
+
 /* A context of its own for every run, so that its peak is the run's. */
-static mt_context *run_context(const session *s)
+static mt_context *run_context(session *s)
 {
     mt_context *outer = s->subject->job->context;
     uint64_t limit = s->subject->job->common->max_memory, held = mt_context_bytes(outer);
-    mt_context_options options = {.thread_count = mt_context_thread_count(outer)};
+    mt_context_options options = {
+        .thread_count = mt_context_thread_count(outer), .progress = in_time, .progress_user = s};
     options.memory_limit = limit > held ? limit - held : limit ? 1 : 0;
     mt_context *context = mt_context_create(&options);
     if (!context) {
@@ -111,8 +126,11 @@ static mt_status run_once(session *s, size_t level, tradeoff_row *row, double *s
         return MT_ERROR_OUT_OF_MEMORY;
     }
     double begin = now();
+    s->is_late = false;
+    s->deadline = row && s->patience > 0 ? begin + s->patience : INFINITY;
     mt_status status = s->knob->run(s->state, level, context);
     *seconds = now() - begin;
+    s->deadline = INFINITY;
     if (status == MT_OK && row) {
         row->peak_bytes = mt_context_peak_bytes(context);
         status = s->knob->judge(s->state, level, context, row);
@@ -120,23 +138,45 @@ static mt_status run_once(session *s, size_t level, tradeoff_row *row, double *s
     if (s->knob->discard) {
         s->knob->discard(s->state, context);
     }
-    status = status == MT_OK ? MT_OK : take_over(s, context, level);
+    bool stopped = status == MT_ERROR_CANCELLED && s->is_late;
+    status = status == MT_OK || stopped ? status : take_over(s, context, level);
     mt_context_destroy(context);
+    return status;
+}
+
+static mt_status judge_level(session *s, size_t level, double *round)
+{
+    const char *why = s->knob->refuse ? s->knob->refuse(s->state, level) : NULL;
+    mt_status status = MT_OK;
+    if (!why) {
+        tradeoff_row *row = &s->rows[s->level_count];
+        *row = (tradeoff_row){.knob = s->knob, .level = s->knob->levels[level], .spread = (double)NAN};
+        status = run_once(s, level, row, &row->seconds);
+        if (status == MT_OK) {
+            *round += row->seconds;
+            s->levels[s->level_count++] = level;
+        } else if (s->is_late) {
+            why = "one run takes more than this knob's share of the time; a larger --budget has it";
+            status = MT_OK;
+        }
+    }
+    if (why) {
+        s->table->skips[s->table->skip_count++] = (tradeoff_skip){s->knob, s->knob->levels[level], why};
+    }
     return status;
 }
 
 static mt_status judge_levels(session *s, double *round)
 {
+    size_t count = 0;
+    while (s->knob->levels[count] && count < LEVEL_MAXIMUM) {
+        count++;
+    }
     mt_status status = MT_OK;
-    for (size_t level = 0; status == MT_OK && level < s->level_count; level++) {
-        double seconds = 0;
-        tradeoff_row *row = &s->rows[level];
-        *row = (tradeoff_row){.knob = s->knob, .level = s->knob->levels[level], .spread = (double)NAN};
-        status = run_once(s, level, row, &seconds);
-        row->seconds = seconds;
-        *round += seconds;
+    for (size_t level = 0; status == MT_OK && level < count; level++) {
+        status = judge_level(s, level, round);
         if (status == MT_OK) {
-            status = mt_progress(s->subject->job->context, s->knob->name, (double)(level + 1) / (double)s->level_count);
+            status = mt_progress(s->subject->job->context, s->knob->name, (double)(level + 1) / (double)count);
         }
     }
     return status;
@@ -147,7 +187,7 @@ static mt_status time_levels(session *s, size_t runs)
     mt_status status = MT_OK;
     for (size_t run = 0; status == MT_OK && run < runs; run++) {
         for (size_t level = 0; status == MT_OK && level < s->level_count; level++) {
-            status = run_once(s, level, NULL, &s->times[level][run]);
+            status = run_once(s, s->levels[level], NULL, &s->times[level][run]);
         }
         if (status == MT_OK) {
             status = mt_progress(s->subject->job->context, s->knob->name, (double)(run + 1) / (double)runs);
@@ -229,14 +269,12 @@ mt_status tradeoff_measure(const tradeoff_subject *subject, const tradeoff_knob 
     if (!s) {
         return mt_fail(subject->job->context, MT_ERROR_OUT_OF_MEMORY, "out of memory for the times of %s", knob->name);
     }
-    *s = (session){.subject = subject, .knob = knob, .rows = table->rows + table->row_count};
-    while (knob->levels[s->level_count] && s->level_count < LEVEL_MAXIMUM) {
-        s->level_count++;
-    }
+    *s = (session){
+        .subject = subject, .knob = knob, .table = table, .rows = table->rows + table->row_count, .patience = seconds};
     const char *why = NULL;
     mt_status status = knob->prepare(subject, &s->state, &why);
     if (status == MT_OK && why) {
-        table->skips[table->skip_count++] = (tradeoff_skip){knob, why};
+        table->skips[table->skip_count++] = (tradeoff_skip){knob, NULL, why};
     } else if (status == MT_OK) {
         status = measure_levels(s, seconds);
         table->row_count += s->level_count;

@@ -87,7 +87,9 @@ void tradeoff_print_text(const tradeoff_subject *subject, const tradeoff_table *
         print_losses(table, begin, end);
     }
     for (size_t i = 0; i < table->skip_count; i++) {
-        printf("%s%s: left out, %s\n", i == 0 ? "\n" : "", table->skips[i].knob->name, table->skips[i].why);
+        const tradeoff_skip *skip = &table->skips[i];
+        printf("%s%s%s%s: left out, %s\n", i == 0 ? "\n" : "", skip->knob->name, skip->level ? ", " : "",
+               skip->level ? skip->level : "", skip->why);
     }
     if (table->row_count > 0) {
         puts("\n* the knee: beyond it, a little more costs much. Times are medians; +- is half of their range.");
@@ -127,6 +129,7 @@ void tradeoff_print_json(const tradeoff_subject *subject, const tradeoff_table *
     for (size_t i = 0; i < table->skip_count; i++) {
         json_t *skip = cli_json_object();
         cli_json_set(skip, "knob", cli_json_text(table->skips[i].knob->name));
+        cli_json_set(skip, "level", table->skips[i].level ? cli_json_text(table->skips[i].level) : json_null());
         cli_json_set(skip, "why", cli_json_text(table->skips[i].why));
         cli_json_append(skips, skip);
     }

@@ -51,6 +51,8 @@ struct tradeoff_knob {
     /* Makes what the levels share, with the job's context. When the knob has no meaning on this mesh, *why receives a
      * sentence that says so. *state is released in every case, if it is not NULL. */
     mt_status (*prepare)(const tradeoff_subject *subject, void **state, const char **why);
+    /* Why a level is left out on this mesh, NULL: it is not. May itself be NULL: no level is. */
+    const char *(*refuse)(const void *state, size_t level);
     /* What is timed. Its result stays in the state until `discard`, which may be NULL. */
     mt_status (*run)(void *state, size_t level, mt_context *context);
     void (*discard)(void *state, mt_context *context);
@@ -68,9 +70,10 @@ void tradeoff_add_size(tradeoff_row *row, const char *name, double value);
 /* The figure of that name, NAN when the row has none. */
 double tradeoff_figure_of(const tradeoff_row *row, const char *name);
 
-/* A knob that was left out, and why. */
+/* A knob, or a level of one, that was left out, and why. */
 typedef struct tradeoff_skip {
     const tradeoff_knob *knob;
+    const char *level; /* NULL: all of them */
     const char *why;
 } tradeoff_skip;
 
@@ -80,12 +83,13 @@ typedef struct tradeoff_skip {
 typedef struct tradeoff_table {
     tradeoff_row rows[TRADEOFF_ROW_MAXIMUM];
     size_t row_count;
-    tradeoff_skip skips[TRADEOFF_KNOB_MAXIMUM];
+    tradeoff_skip skips[TRADEOFF_ROW_MAXIMUM];
     size_t skip_count;
     double reference_seconds; /* of a fixed sum, so that times of two machines can be compared */
 } tradeoff_table;
 
-/* Measures one knob for about so many seconds, its oracle not counted; adds its rows or its skip. */
+/* Measures one knob for about so many seconds, its oracle not counted; adds its rows and its skips. A level whose first
+ * run takes longer than all these seconds and can be stopped is left out; with 0 seconds every level runs once. */
 mt_status tradeoff_measure(const tradeoff_subject *subject, const tradeoff_knob *knob, double seconds,
                            tradeoff_table *table);
 /* The reference kernel's median time. */
