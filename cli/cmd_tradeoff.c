@@ -33,8 +33,7 @@ static const cli_option options[] = {
      .minimum = 0,
      .maximum = 86400,
      .help = "time for repeated runs, of all knobs together (default 20); a level whose first run takes longer than "
-             "its knob's "
-             "share is left out where it can be stopped; 0: every level once, whatever it takes"},
+             "its knob's share is left out where it can be stopped; 0: every level once, whatever it takes"},
     {.name = "plot",
      .offset = SETTING(plot),
      .parse = cli_parse_text,

@@ -35,4 +35,14 @@ holds "no plot of a bad mesh" test ! -e "$folder/none.svg"
 printf 'OFF\n2 0 0\n0 0 0\n1 1 1\n' >"$folder/points.off"
 run 0 tradeoff "$folder/points.off" --budget 0
 prints "triangle-test: left out, the mesh has no faces"
+
+# Levels that are left out say why, and 0 seconds leave out none for want of time.
+"$meshtool" generate torus -o "$folder/wide.ply" --resolution 48
+run 0 tradeoff "$folder/wide.ply" --knob strips --budget 0.000001
+prints "strips, thorough: left out, one run takes more"
+run 0 tradeoff "$folder/wide.ply" --knob strips --budget 0 --json
+prints '"level": "thorough"'
+prints '"skipped": []'
+run 0 tradeoff "$folder/wide.ply" --knob levels --budget 0
+prints "levels, 4: left out, its faces are too many"
 finish
