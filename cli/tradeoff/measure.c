@@ -169,7 +169,7 @@ static mt_status judge_level(session *s, size_t level, double *round)
 static mt_status judge_levels(session *s, double *round)
 {
     size_t count = 0;
-    while (s->knob->levels[count] && count < LEVEL_MAXIMUM) {
+    while (count < LEVEL_MAXIMUM && s->knob->levels[count]) {
         count++;
     }
     mt_status status = MT_OK;
