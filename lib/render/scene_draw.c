@@ -201,12 +201,17 @@ static mt_status draw_waiting(mt_context *context, draw_task *task, size_t tile_
     return status;
 }
 
-static const char *describe_pass(const draw_task *task, bool is_first)
+typedef struct pass_name {
+    const char *name, *why;
+} pass_name;
+
+static pass_name name_pass(const draw_task *task, bool is_first)
 {
-    if (task->fine) {
-        return is_first ? "where the picture changes" : "where the picture changes, tiles that asked for a mesh";
-    }
-    return is_first ? "tile by tile, each until it asks for a mesh that is not built" : "tiles that asked for a mesh";
+    static const pass_name names[2][2] = {
+        {{"tiles drawn again", "those that asked for a mesh"},
+         {"rays and shading", "tile by tile, each until it asks for a mesh that is not built"}},
+        {{"more samples again", "tiles that asked for a mesh"}, {"more samples", "where the picture changes"}}};
+    return names[task->fine != NULL][is_first];
 }
 
 /* Draws all tiles, and builds what they ask for, until none waits. */
@@ -215,8 +220,8 @@ static mt_status draw_all(mt_context *context, mt_scene_plan *plan, draw_task *t
     bool any = true, is_first = true;
     mt_status status = MT_OK;
     while (status == MT_OK && any) {
-        int part =
-            mt_part_begin(context, is_first ? "rays and shading" : "rays, once more", describe_pass(task, is_first));
+        pass_name pass = name_pass(task, is_first);
+        int part = mt_part_begin(context, pass.name, pass.why);
         is_first = false;
         status = draw_waiting(context, task, tile_count);
         mt_part_end(context, part);

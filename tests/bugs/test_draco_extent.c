@@ -1,6 +1,6 @@
-/* Draco's quantising divides by the extent of the values: where it is so small that the quotient is no float, or so large
- * that it is none itself, numbers of symbols became negative and Draco wrote to address 0. Found by the fuzzer. Such
- * values are stored as they are. */
+/* Draco's quantising divides by the extent of the values: where it is so small that the quotient is no float, or so
+ * large that it is none itself, numbers of symbols became negative and Draco wrote to address 0. Found by the fuzzer.
+ * Such values are stored as they are. */
 #include "tests/support/unit.h"
 
 #include "tests/support/fixture.h"

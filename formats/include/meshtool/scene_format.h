@@ -12,9 +12,9 @@ extern "C" {
 typedef struct mt_scene_file mt_scene_file;
 
 /* Reads a scene; "-" is standard input, and its meshes are then looked for in the current folder. Meshes are named by
- * paths relative to the scene's folder, never by "-". MT_ERROR_SYNTAX with line, column and the path of what is wrong: JSON that is
- * not, keys that are unknown or given twice, values of another kind or out of range, names that nothing has. Errors of
- * mesh files are theirs. Ownership: the caller's, until mt_scene_file_destroy. */
+ * paths relative to the scene's folder, never by "-". MT_ERROR_SYNTAX with line, column and the path of what is wrong:
+ * JSON that is not, keys that are unknown or given twice, values of another kind or out of range, names that nothing
+ * has. Errors of mesh files are theirs. Ownership: the caller's, until mt_scene_file_destroy. */
 mt_status mt_scene_read_file(mt_context *context, const char *path, mt_scene_file **out);
 
 /* The same from memory: `name` stands in messages, and its folder is where meshes are looked for. */
