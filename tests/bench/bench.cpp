@@ -143,6 +143,7 @@ const Case cases[] = {
     {"images", run_images},
     {"preview", run_preview},
     {"preview-process", run_preview_process},
+    {"visibility", run_visibility},
     {"rays", run_rays},
     {"structures", run_structures},
     {"closest", run_closest},

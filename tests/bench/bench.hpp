@@ -58,6 +58,7 @@ void run_subdivision();
 void run_preview();
 void run_preview_process();
 void run_scene();
+void run_visibility();
 void run_rays();
 void run_structures();
 void run_closest();
