@@ -221,15 +221,18 @@ static mt_status read_picture(png_reader *reader, mt_image **out)
     return status == MT_OK ? read_rows(reader, *out) : status;
 }
 
-/* What the side chunks may become: most are kept as they are, profiles and texts may be deflated, and the room for
- * those doubles as it grows. */
+#define CHUNK_RECORD 1088 /* bytes that libspng keeps of a chunk beside what stands in it; a palette takes most */
+
+/* What the side chunks may become: most are kept as they are with a record each, profiles and texts may be deflated,
+ * and the room for those doubles as it grows. */
 static uint64_t bound_side_chunks(const mt_input *input)
 {
     static const char *const deflated[] = {"iCCP", "zTXt", "iTXt"};
-    uint64_t size = mt_input_size(input), bound = size;
+    uint64_t size = mt_input_size(input), bound = 0;
     uint8_t head[8];
     for (uint64_t at = 8; at < size && mt_input_read_at(input, at, head, sizeof head) == sizeof head;) {
         uint64_t length = (uint64_t)head[0] << 24 | (uint64_t)head[1] << 16 | (uint64_t)head[2] << 8 | head[3];
+        bound += memcmp(head + 4, "IDAT", 4) == 0 ? 0 : length + CHUNK_RECORD;
         for (size_t i = 0; i < sizeof deflated / sizeof deflated[0]; i++) {
             bound += memcmp(head + 4, deflated[i], 4) == 0 ? 2 * length * DEFLATE_RATIO : 0;
         }
