@@ -107,9 +107,9 @@ uint64_t symbol_bound(const mt_draco_source *source)
 // With more symbols than this the table would be larger than what it saves: whole bytes are written.
 constexpr uint64_t most_symbols = uint64_t{1} << 24;
 
-void set_options(const mt_draco_source *source, draco::ExpertEncoder *encoder, bool points)
+void set_options(const mt_draco_source *source, uint64_t symbols, draco::ExpertEncoder *encoder, bool points)
 {
-    encoder->SetUseBuiltInAttributeCompression(symbol_bound(source) <= most_symbols);
+    encoder->SetUseBuiltInAttributeCompression(symbols <= most_symbols);
     int speed = static_cast<int>(source->speed);
     encoder->SetSpeedOptions(speed, speed);
     encoder->SetTrackEncodedProperties(true);
@@ -144,8 +144,8 @@ mt_draco_result finish(draco::ExpertEncoder *encoder, mt_draco_allocate allocate
     return MT_DRACO_OK;
 }
 
-mt_draco_result encode(const mt_draco_source *source, mt_draco_allocate allocate, void *user, mt_draco_bytes *out,
-                       char *message)
+mt_draco_result encode(const mt_draco_source *source, uint64_t symbols, mt_draco_allocate allocate, void *user,
+                       mt_draco_bytes *out, char *message)
 {
     draco::Mesh mesh;
     bool points = !source->triangles;
@@ -159,7 +159,7 @@ mt_draco_result encode(const mt_draco_source *source, mt_draco_allocate allocate
     }
     const draco::PointCloud &cloud = mesh;
     draco::ExpertEncoder encoder = points ? draco::ExpertEncoder(cloud) : draco::ExpertEncoder(mesh);
-    set_options(source, &encoder, points);
+    set_options(source, symbols, &encoder, points);
     return finish(&encoder, allocate, user, out, message);
 }
 
@@ -177,8 +177,9 @@ try {
             (attribute->component_count * mt_type_size(attribute->type) + 16) * value_copies * source->vertex_count +
             source->triangle_count * seam_bytes;
     }
-    bytes += sizeof(uint32_t) * std::min(symbol_bound(source), most_symbols);
-    return hold(user, bytes) ? encode(source, allocate, user, out, message) : MT_DRACO_REFUSED;
+    uint64_t symbols = symbol_bound(source);
+    bytes += sizeof(uint32_t) * std::min(symbols, most_symbols);
+    return hold(user, bytes) ? encode(source, symbols, allocate, user, out, message) : MT_DRACO_REFUSED;
 } catch (const std::bad_alloc &) {
     return MT_DRACO_NO_MEMORY;
 } catch (...) {
