@@ -7,6 +7,7 @@
 #include <meshtool/elementary.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -84,16 +85,18 @@ typedef struct session {
     double patience; /* seconds after which a first run is stopped; 0: never */
     double deadline; /* of the run at hand */
     bool is_late;
+    char task[64];            /* as the bar names the run at hand */
+    double done, done_by_run; /* shares: before the run at hand, and by it */
     double times[LEVEL_MAXIMUM][RUN_MAXIMUM];
 } session;
 
-static bool in_time(void *user, const char *task, double fraction)
+/* A first run is stopped when it is late; every run, when the command is. */
+static bool may_go_on(void *user, const char *task, double fraction)
 {
     (void)task;
-    (void)fraction;
     session *s = user;
-    s->is_late = s->is_late || now() > s->deadline;
-    return !s->is_late;
+    s->is_late = now() > s->deadline;
+    return !s->is_late && mt_progress(s->subject->job->context, s->task, s->done + s->done_by_run * fraction) == MT_OK;
 }
 
 /* A context of its own for every run, so that its peak is the run's. */
@@ -102,7 +105,7 @@ static mt_context *run_context(session *s)
     mt_context *outer = s->subject->job->context;
     uint64_t limit = s->subject->job->common->max_memory, held = mt_context_bytes(outer);
     mt_context_options options = {
-        .thread_count = mt_context_thread_count(outer), .progress = in_time, .progress_user = s};
+        .thread_count = mt_context_thread_count(outer), .progress = may_go_on, .progress_user = s};
     options.memory_limit = limit > held ? limit - held : limit ? 1 : 0;
     mt_context *context = mt_context_create(&options);
     if (!context) {
@@ -116,6 +119,15 @@ static mt_status take_over(const session *s, const mt_context *context, size_t l
     const mt_error *error = mt_context_error(context);
     return mt_fail(s->subject->job->context, error->status, "%s, %s: %s", s->knob->name, s->knob->levels[level],
                    error->message);
+}
+
+/* Names the run number `at` of `count`, and asks whether to go on. */
+static mt_status announce(session *s, const char *what, size_t level, size_t at, size_t count)
+{
+    snprintf(s->task, sizeof s->task, "%s %s, %s", what, s->knob->name, s->knob->levels[level]);
+    s->done = (double)at / (double)count;
+    s->done_by_run = 1 / (double)count;
+    return mt_progress(s->subject->job->context, s->task, s->done);
 }
 
 /* One run of a level; `row` is filled when it is judged. */
@@ -174,9 +186,9 @@ static mt_status judge_levels(session *s, double *round)
     }
     mt_status status = MT_OK;
     for (size_t level = 0; status == MT_OK && level < count; level++) {
-        status = judge_level(s, level, round);
+        status = announce(s, "judging", level, level, count);
         if (status == MT_OK) {
-            status = mt_progress(s->subject->job->context, s->knob->name, (double)(level + 1) / (double)count);
+            status = judge_level(s, level, round);
         }
     }
     return status;
@@ -187,10 +199,10 @@ static mt_status time_levels(session *s, size_t runs)
     mt_status status = MT_OK;
     for (size_t run = 0; status == MT_OK && run < runs; run++) {
         for (size_t level = 0; status == MT_OK && level < s->level_count; level++) {
-            status = run_once(s, s->levels[level], NULL, &s->times[level][run]);
-        }
-        if (status == MT_OK) {
-            status = mt_progress(s->subject->job->context, s->knob->name, (double)(run + 1) / (double)runs);
+            status = announce(s, "timing", s->levels[level], run * s->level_count + level, runs * s->level_count);
+            if (status == MT_OK) {
+                status = run_once(s, s->levels[level], NULL, &s->times[level][run]);
+            }
         }
     }
     for (size_t level = 0; status == MT_OK && level < s->level_count; level++) {

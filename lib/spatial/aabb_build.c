@@ -11,9 +11,11 @@
  * several times faster to find. */
 #include "lib/spatial/aabb_build.h"
 #include "lib/spatial/box.h"
+#include "lib/spatial/part_batches.h"
 
 #define TASK_SIZE 8192    /* primitives of a subtree that one thread builds */
 #define STACK_CAPACITY 64 /* the logarithm of the largest count, and some */
+#define TOP_SHARE 0.3     /* of the time: the top's */
 
 typedef struct build_range {
     mt_index begin, end;
@@ -209,8 +211,9 @@ mt_status mt_aabb_build(mt_context *context, mt_aabb_tree *tree)
     mt_status status = MT_ERROR_OUT_OF_MEMORY;
     if (job.top_nodes && job.tasks && job.subtrees && job.subtree_counts) {
         build_top(&job, count);
-        mt_parallel_for(context, job.task_count, 1, build_subtrees, &job);
-        status = join(&job, tree);
+        status =
+            mt_make_in_batches(context, "building the tree of boxes", TOP_SHARE, job.task_count, build_subtrees, &job);
+        status = status == MT_OK ? join(&job, tree) : status;
         for (mt_index task = 0; task < job.task_count; task++) {
             mt_free(context, job.subtrees[task]);
         }

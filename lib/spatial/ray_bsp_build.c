@@ -5,9 +5,15 @@
  * The pieces of the cell in work lie at the end of a list, those of the cells that wait before them. Cells of few
  * triangles are tasks of their own, made in parallel and joined in order: the tree depends on the triangles alone. */
 #include "lib/spatial/growing.h"
+#include "lib/spatial/part_batches.h"
 #include "lib/spatial/ray_bsp.h"
 
 #define TASK_SIZE 4096
+#define PROGRESS "building the BSP tree"
+
+/* Of the time: the top's. */
+#define TOP_SHARE 0.4
+
 #define LEAF_SIZE 2
 
 /* Of the triangles: entries beyond the first of each. */
@@ -33,6 +39,8 @@ typedef struct build_job {
     unsigned depth;
     part top;
     mt_growing parts;
+    double done;      /* share of the top; duplicates do not take it back */
+    mt_status status; /* MT_ERROR_CANCELLED: asked to stop */
 } build_job;
 
 static mt_surface_box *pieces_of(const part *p, const mt_ray_bsp_cell *cell)
@@ -122,6 +130,14 @@ static bool make_task(build_job *job, const waiting *item)
     return true;
 }
 
+/* Asked before a cell of the top. */
+static bool may_go_on(build_job *job)
+{
+    job->done = fmax(job->done, 1 - (double)job->top.pieces.count / (double)job->triangles->count);
+    job->status = mt_progress(job->context, PROGRESS, TOP_SHARE * job->done);
+    return job->status == MT_OK;
+}
+
 /* Makes a part from its root on. Cells of at most task_size triangles are left to tasks, unless empty. */
 static bool make_part(build_job *job, part *p, mt_index task_size)
 {
@@ -134,6 +150,9 @@ static bool make_part(build_job *job, part *p, mt_index task_size)
         if (item.cell.count && item.cell.count <= task_size) {
             is_made = make_task(job, &item);
             continue;
+        }
+        if (task_size && !may_go_on(job)) {
+            return false;
         }
         mt_ray_bsp_plane plane = {MT_RAY_BSP_LEAF, 0};
         if (item.cell.count > LEAF_SIZE && item.cell.depth < job->depth) {
@@ -261,13 +280,15 @@ mt_status mt_ray_bsp_build(mt_context *context, mt_ray_bsp *bsp)
     bool is_made = make_top(&job);
     release_work(context, &job.top);
     if (is_made) {
-        mt_parallel_for(context, job.parts.count, 1, make_parts, &job);
+        job.status = mt_make_in_batches(context, PROGRESS, TOP_SHARE, job.parts.count, make_parts, &job);
     }
     for (uint64_t i = 0; i < job.parts.count; i++) {
         is_made &= ((part *)job.parts.items)[i].is_complete;
     }
-    mt_status status = is_made ? join_parts(&job, bsp)
-                               : mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "out of memory while building the BSP tree");
+    if (job.status == MT_OK) {
+        job.status =
+            is_made ? join_parts(&job, bsp) : mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "out of memory while " PROGRESS);
+    }
     release_job(&job);
-    return status;
+    return job.status;
 }

@@ -168,6 +168,9 @@ static mt_status enter_all(mt_context *context, mt_ray_grid *grid)
         grid->offsets[cell + 1] += grid->offsets[cell];
     }
     grid->entry_count = grid->offsets[grid->cell_count];
+    if (mt_progress(context, "building the grid", 0.5) != MT_OK) {
+        return MT_ERROR_CANCELLED;
+    }
     grid->entries = mt_allocate_array(context, grid->entry_count, sizeof *grid->entries);
     if (!grid->entries) {
         return mt_context_error(context)->status;

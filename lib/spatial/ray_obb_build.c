@@ -2,9 +2,14 @@
  * two along one of them, until a leaf's few are left; O(n log n). Small ranges are tasks of their own, made in parallel
  * and joined in order: the hierarchy depends on the triangles alone. */
 #include "lib/spatial/growing.h"
+#include "lib/spatial/part_batches.h"
 #include "lib/spatial/ray_obb.h"
 
 #define TASK_SIZE 4096
+#define PROGRESS "building oriented boxes"
+
+/* Of the time: the top's. */
+#define TOP_SHARE 0.4
 
 typedef struct waiting {
     mt_ray_obb_range range;
@@ -24,6 +29,7 @@ typedef struct build_job {
     mt_packed_triangles *triangles;
     part top;
     mt_growing parts;
+    mt_status status; /* MT_ERROR_CANCELLED: asked to stop */
 } build_job;
 
 static mt_index size_of(mt_ray_obb_range range)
@@ -63,6 +69,15 @@ static int make_node(const build_job *job, part *p, const waiting *item, waiting
     return 2;
 }
 
+/* Asked before a range of the top; the last ranges come first. */
+static bool may_go_on(build_job *job, const waiting *item)
+{
+    mt_index count = job->triangles->count;
+    double done = (double)(count - item->range.end) / (double)count;
+    job->status = mt_progress(job->context, PROGRESS, TOP_SHARE * done);
+    return job->status == MT_OK;
+}
+
 /* Makes a part from its root on. Ranges of at most task_size triangles are left to tasks. */
 static bool make_part(build_job *job, part *p, mt_index task_size)
 {
@@ -80,6 +95,9 @@ static bool make_part(build_job *job, part *p, mt_index task_size)
                 return false;
             }
             continue;
+        }
+        if (task_size && !may_go_on(job, &item)) {
+            return false;
         }
         int added = make_node(job, p, &item, stack + depth);
         if (added < 0) {
@@ -150,14 +168,15 @@ mt_status mt_ray_obb_build(mt_context *context, mt_ray_obb *obb)
     job.top.root.range = (mt_ray_obb_range){0, obb->triangles.count};
     bool is_made = make_part(&job, &job.top, TASK_SIZE);
     if (is_made) {
-        mt_parallel_for(context, job.parts.count, 1, make_parts, &job);
+        job.status = mt_make_in_batches(context, PROGRESS, TOP_SHARE, job.parts.count, make_parts, &job);
     }
     for (uint64_t i = 0; i < job.parts.count; i++) {
         is_made &= ((part *)job.parts.items)[i].is_complete;
     }
-    mt_status status = is_made
-                           ? join_parts(&job, obb)
-                           : mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "out of memory while building oriented boxes");
+    if (job.status == MT_OK) {
+        job.status =
+            is_made ? join_parts(&job, obb) : mt_fail(context, MT_ERROR_OUT_OF_MEMORY, "out of memory while " PROGRESS);
+    }
     release_job(&job);
-    return status;
+    return job.status;
 }

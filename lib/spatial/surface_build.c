@@ -9,10 +9,12 @@
  * Memory while building: 64 bytes an element for boxes and scratch, and the nodes of the tasks once more. The depth is
  * bounded: from level 48 on ranges are halved. Known weakness: splits by centroids alone; long thin triangles overlap
  * more than spatial splits would let them, at no less than half again the memory. */
+#include "lib/spatial/part_batches.h"
 #include "lib/spatial/surface_split.h"
 
 #define TASK_SIZE 8192   /* elements of a subtree that one thread builds */
 #define SMALLEST_SPLIT 3 /* leaves of fewer are not split to fill slots */
+#define TOP_SHARE 0.3    /* of the time: the top's */
 
 /* Elements for each node at least: a node that has a node among its children has eight, any other more elements than a
  * leaf; from both, n elements make 0.24 n nodes at most. */
@@ -266,7 +268,10 @@ mt_status mt_surface_build(mt_context *context, mt_surface_tree *tree, mt_surfac
     if (tree->words && allocate_job(&job)) {
         memset(tree->words + (words - MT_WIDTH), 0, MT_WIDTH * sizeof *tree->words);
         build_top(&job);
-        mt_parallel_for(context, job.task_count, 1, build_subtrees, &job);
+        status =
+            mt_make_in_batches(context, "building the tree of boxes", TOP_SHARE, job.task_count, build_subtrees, &job);
+    }
+    if (status == MT_OK) {
         status = join_subtrees(&job);
     }
     release_job(&job);

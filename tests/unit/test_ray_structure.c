@@ -320,6 +320,61 @@ static void sizes_are_those_held(void **state)
     test_context_end(context);
 }
 
+typedef struct stopper {
+    unsigned asked, at; /* stops when asked so often; 0: never */
+    double share;
+    bool goes_back;
+} stopper;
+
+static bool keep_on(void *user, const char *task, double fraction)
+{
+    stopper *s = user;
+    assert_non_null(task);
+    s->goes_back = s->goes_back || !(fraction >= s->share && fraction <= 1);
+    s->share = fraction;
+    return ++s->asked != s->at;
+}
+
+static mt_status build_with(mt_ray_structure_kind kind, const mt_mesh *mesh, const mt_triangulation *triangulation,
+                            stopper *s)
+{
+    mt_context_options options = {.thread_count = 2, .progress = keep_on, .progress_user = s};
+    mt_context *context = mt_context_create(&options);
+    mt_ray_structure *structure = NULL;
+    assert_non_null(context);
+    mt_status status = mt_ray_structure_create(context, mesh, triangulation, kind, &structure);
+    assert_true((structure != NULL) == (status == MT_OK));
+    mt_ray_structure_destroy(context, structure);
+    assert_int_equal(mt_context_bytes(context), 0);
+    mt_context_destroy(context);
+    return status;
+}
+
+/* Large enough for a top and several batches of parts. */
+static void building_can_be_stopped(void **state)
+{
+    (void)state;
+    mt_context *context = test_context();
+    mt_mesh *mesh = generated(context, "icosphere", 6);
+    mt_triangulation triangulation;
+    assert_int_equal(mt_triangulation_init(context, mesh, &triangulation), MT_OK);
+    for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+        stopper whole = {.at = 0};
+        assert_int_equal(build_with((mt_ray_structure_kind)kind, mesh, &triangulation, &whole), MT_OK);
+        assert_false(whole.goes_back);
+        assert_true(kind == MT_RAY_STRUCTURE_NONE || whole.asked > 0);
+        for (unsigned at = 1; at <= whole.asked; at += at < 4 ? 1 : whole.asked / 4) {
+            stopper stopped = {.at = at};
+            assert_int_equal(build_with((mt_ray_structure_kind)kind, mesh, &triangulation, &stopped),
+                             MT_ERROR_CANCELLED);
+            assert_int_equal(stopped.asked, at);
+        }
+    }
+    mt_triangulation_release(context, &triangulation);
+    mt_mesh_destroy(context, mesh);
+    test_context_end(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -336,6 +391,7 @@ int main(void)
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(failing_allocations_leave_nothing),
         cmocka_unit_test(sizes_are_those_held),
+        cmocka_unit_test(building_can_be_stopped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
