@@ -1,18 +1,18 @@
-/* Vertex normals by area: one pass over the faces adds each area vector at the face's vertices, then each sum is
- * brought to length 1. Several threads own a range of vertices each and add in it what the faces bring, in ascending
- * order: so sums do not depend on who runs them. Blocks of faces know between which vertices they lie: most lie outside
- * a range, and are passed over, or inside, where no vertex needs to be asked for.
+/* Vertex normals by area: one pass over the faces adds each area vector at the face's vertices, in slabs (see
+ * normals_slabs.h), and when the last face of a group of vertices is added the sums are brought to length 1. Several
+ * threads own a range of groups each and add in it what the faces bring, in ascending order: so sums do not depend on
+ * who runs them. Blocks of faces know between which vertices they lie: most lie outside a range, and are passed over,
+ * or inside, where no vertex needs to be asked for.
  *
- * Cost: linear; three doubles a vertex beside the result, none when that is in doubles. Faces in a random order cost
- * cache misses, so that positions and sums are asked for some faces ahead; then every block lies in every range, and
- * one thread does all. */
+ * Cost: linear; four doubles a vertex of the groups that are at work at once, which for faces in a random order are
+ * all. Those also cost cache misses, so that positions and sums are asked for some faces ahead; then every block lies
+ * in every range, and one thread does all. */
 #include "lib/algorithms/normals.h"
 #include "lib/algorithms/normals_face.h"
-
-#include <string.h>
+#include "lib/algorithms/normals_four.h"
+#include "lib/algorithms/normals_slabs.h"
 
 #define RANGES_MAXIMUM 64
-#define FACE_BLOCK 2048
 
 /* Faces that memory is given to fetch what they need. */
 #define LOOK_AHEAD 16
@@ -20,243 +20,306 @@
 /* A block whose vertices are spread farther than so many numbers misses caches: what it needs is asked for ahead. */
 #define WIDE_BLOCK 32768
 
-/* The lowest and the highest vertex of a block of faces. */
-typedef struct face_block {
-    mt_index low, high;
-} face_block;
+/* Groups that one thread adds at, and what came of it. */
+typedef struct area_range {
+    mt_index group_begin, group_end;
+    mt_index *free_slabs; /* those not in use: a stack */
+    mt_index free_count;
+    mt_index undefined_count;
+    bool fits; /* no area that cannot be summed as it is */
+} area_range;
 
 typedef struct area_job {
     mt_normals_job *job;
-    double *sums; /* 3 a vertex */
-    face_block *blocks;
+    mt_slab_plan plan;
+    double4 *sums;   /* (x, y, z, 0) of the vertices of each slab */
+    mt_index *moves; /* of each group at work: from a vertex to its sum */
+    mt_index *free_slabs;
     mt_index range_count;
-    bool out_of_range[RANGES_MAXIMUM]; /* per range: an area that cannot be summed as it is */
+    area_range ranges[RANGES_MAXIMUM];
 } area_job;
-
-MT_INLINE void add_at(double *sums, mt_index vertex, mt_vec3 n)
-{
-    double *sum = sums + 3 * (size_t)vertex;
-    sum[0] += n.x, sum[1] += n.y, sum[2] += n.z;
-}
-
-/* The area vector of a face that plain doubles do not serve. False: it is out of range. */
-static bool find_area_vector(const mt_mesh *mesh, mt_index face, mt_vec3 *area_vector)
-{
-    mt_scaled_vector scaled = mt_face_area_vector(mesh, face);
-    *area_vector = mt_shift_vector(scaled.vector, scaled.exponent);
-    return mt_vector_is_zero(scaled.vector) || mt_is_plain(*area_vector);
-}
 
 /* Faces of a block, and the range of vertices that they are added to. */
 typedef struct block_task {
     const mt_mesh *mesh;
-    double *sums;
+    double4 *sums;
+    const mt_index *moves;
     mt_index face, face_end;
     mt_index begin, count;
 } block_task;
 
-MT_INLINE void fetch_face(const block_task *task, const mt_index *vertices, mt_index sides, bool is_double)
+/* ---- Adding ---- */
+
+MT_INLINE double4 *sum_at(const block_task *task, mt_index vertex)
 {
-    size_t size = is_double ? 3 * sizeof(double) : 3 * sizeof(float);
-    for (mt_index i = 0; i < sides; i++) {
-        __builtin_prefetch((const char *)task->mesh->positions + vertices[i] * size);
-        __builtin_prefetch(task->sums + 3 * (size_t)vertices[i], 1);
-    }
+    return task->sums + (mt_index)(vertex + task->moves[vertex >> MT_SLAB_SHIFT]);
 }
 
-MT_INLINE bool touches(const block_task *task, const mt_index *vertices, mt_index sides)
+MT_INLINE bool in_range(const block_task *task, mt_index vertex)
+{
+    return vertex - task->begin < task->count;
+}
+
+MT_INLINE void add_at(const block_task *task, const mt_index *vertices, mt_index sides, bool inside, const double4 *n)
 {
     for (mt_index i = 0; i < sides; i++) {
-        if (vertices[i] - task->begin < task->count) {
-            return true;
+        if (inside || in_range(task, vertices[i])) {
+            *sum_at(task, vertices[i]) += *n;
         }
     }
-    return false;
 }
 
-/* The slow way writes to a vector of its own, so that the other one can stay in registers. */
-MT_INLINE mt_vec3 area_vector_of(const mt_mesh *mesh, mt_index face, const mt_index *vertices, mt_index sides,
-                                 bool is_double, bool *fits)
+/* False: it is out of range. */
+static bool add_face(const block_task *task, mt_index face, bool inside)
 {
-    mt_vec3 n;
-    if (!mt_plain_area_vector(mesh->positions, is_double, vertices, sides, &n)) {
-        mt_vec3 found;
-        *fits = find_area_vector(mesh, face, &found) && *fits;
-        n = found;
-    }
-    return n;
+    const mt_index *vertices = task->mesh->corner_vertices + mt_mesh_face_begin(task->mesh, face);
+    mt_scaled_vector scaled = mt_any_area_vector(task->mesh, face);
+    mt_vec3 n = mt_shift_vector(scaled.vector, scaled.exponent);
+    const double4 vector = {n.x, n.y, n.z, 0};
+    add_at(task, vertices, mt_mesh_face_sides(task->mesh, face), inside, &vector);
+    return mt_vector_is_zero(scaled.vector) || mt_is_plain(n);
 }
 
-/* `inside`: all vertices of the block lie in the range; `near`: near each other. size: sides of every face, or 0. */
-MT_INLINE bool add_faces(const block_task *task, mt_index size, bool is_double, bool inside, bool near)
+static bool add_faces(const block_task *task, mt_index face, mt_index face_end, bool inside)
 {
-    const mt_mesh *mesh = task->mesh;
-    double *sums = task->sums;
-    mt_index ahead = mesh->face_count > LOOK_AHEAD ? mesh->face_count - LOOK_AHEAD : 0;
     bool fits = true;
-    for (mt_index face = task->face; face < task->face_end; face++) {
-        const mt_index *vertices = mesh->corner_vertices + (size ? size * face : mt_mesh_face_begin(mesh, face));
-        mt_index sides = size ? size : mt_mesh_face_sides(mesh, face);
-        if (!near && size && face < ahead) {
-            fetch_face(task, vertices + (size_t)size * LOOK_AHEAD, size, is_double);
-        }
-        if (!inside && !touches(task, vertices, sides)) {
-            continue;
-        }
-        mt_vec3 n = area_vector_of(mesh, face, vertices, sides, is_double, &fits);
-        for (mt_index i = 0; i < sides; i++) {
-            if (inside || vertices[i] - task->begin < task->count) {
-                add_at(sums, vertices[i], n);
-            }
-        }
+    for (; face < face_end; face++) {
+        fits = add_face(task, face, inside) && fits;
     }
     return fits;
 }
 
-static bool add_triangles_f64(const block_task *task, bool inside, bool near)
+MT_INLINE void fetch_four(const block_task *task, const mt_index *vertices, bool is_double)
 {
-    return !inside ? add_faces(task, 3, true, false, false)
-           : near  ? add_faces(task, 3, true, true, true)
-                   : add_faces(task, 3, true, true, false);
+    size_t size = is_double ? 3 * sizeof(double) : 3 * sizeof(float);
+    for (mt_index i = 0; i < 12; i++) {
+        __builtin_prefetch((const char *)task->mesh->positions + vertices[i] * size);
+        __builtin_prefetch(sum_at(task, vertices[i]), 1);
+    }
 }
 
-static bool add_triangles_f32(const block_task *task, bool inside, bool near)
+/* `inside`: all vertices of the block lie in the range; `near`: near each other. */
+MT_INLINE bool add_triangles(const block_task *task, bool is_double, bool inside, bool near)
 {
-    return !inside ? add_faces(task, 3, false, false, false)
-           : near  ? add_faces(task, 3, false, true, true)
-                   : add_faces(task, 3, false, true, false);
+    const mt_mesh *mesh = task->mesh;
+    mt_index face = task->face, fetched_end = mesh->face_count > LOOK_AHEAD + 4 ? mesh->face_count - LOOK_AHEAD - 4 : 0;
+    bool fits = true;
+    for (; task->face_end - face >= 4; face += 4) {
+        const mt_index *vertices = mesh->corner_vertices + 3 * (size_t)face;
+        double4 n[4];
+        if (!near && face < fetched_end) {
+            fetch_four(task, vertices + (size_t)3 * LOOK_AHEAD, is_double);
+        }
+        if (!mt_four_area_vectors(mesh->positions, is_double, vertices, n)) {
+            fits = add_faces(task, face, face + 4, inside) && fits;
+            continue;
+        }
+        for (mt_index i = 0; i < 4; i++) {
+            add_at(task, vertices + 3 * i, 3, inside, &n[i]);
+        }
+    }
+    return add_faces(task, face, task->face_end, inside) && fits;
+}
+
+static MT_CLONES bool add_triangles_f64(const block_task *task, bool inside, bool near)
+{
+    return !inside ? add_triangles(task, true, false, true)
+           : near  ? add_triangles(task, true, true, true)
+                   : add_triangles(task, true, true, false);
+}
+
+static MT_CLONES bool add_triangles_f32(const block_task *task, bool inside, bool near)
+{
+    return !inside ? add_triangles(task, false, false, true)
+           : near  ? add_triangles(task, false, true, true)
+                   : add_triangles(task, false, true, false);
 }
 
 static bool add_block(const block_task *task, bool inside, bool near)
 {
     const mt_mesh *mesh = task->mesh;
-    bool is_double = mesh->position_type == MT_F64;
     if (mesh->face_offsets || mesh->face_size != 3) {
-        return add_faces(task, 0, is_double, inside, near);
+        return add_faces(task, task->face, task->face_end, inside);
     }
-    return is_double ? add_triangles_f64(task, inside, near) : add_triangles_f32(task, inside, near);
+    return mesh->position_type == MT_F64 ? add_triangles_f64(task, inside, near)
+                                         : add_triangles_f32(task, inside, near);
 }
 
-static mt_index block_end(const mt_mesh *mesh, mt_index begin)
+/* ---- Storing ---- */
+
+static mt_index store_unit(mt_attribute *values, mt_index vertex, const double4 *sum)
 {
-    return mesh->face_count - begin < FACE_BLOCK ? mesh->face_count : begin + FACE_BLOCK;
+    mt_vec3 n = mt_vec3_make((*sum)[0], (*sum)[1], (*sum)[2]);
+    n = mt_is_plain(n) ? mt_plain_unit(n) : mt_unit_vector(n);
+    mt_store_normal(values->values, values->type, vertex, n);
+    return mt_vector_is_zero(n);
+}
+
+/* Returns how many have no direction. */
+MT_INLINE mt_index store_units_as(bool is_double, mt_attribute *values, mt_index vertex, mt_index end,
+                                  const double4 *sums)
+{
+    mt_index undefined = 0;
+    while (vertex < end) {
+        size_t at = 3 * (size_t)vertex * (is_double ? sizeof(double) : sizeof(float));
+        mt_index count = end - vertex < 4 ? end - vertex : 4;
+        if (count < 4 || !mt_store_four_units(sums, is_double, (char *)values->values + at)) {
+            for (mt_index i = 0; i < count; i++) {
+                undefined += store_unit(values, vertex + i, sums + i);
+            }
+        }
+        vertex += count;
+        sums += count;
+    }
+    return undefined;
+}
+
+static MT_CLONES mt_index store_units(mt_attribute *values, mt_index vertex, mt_index end, const double4 *sums)
+{
+    return values->type == MT_F64 ? store_units_as(true, values, vertex, end, sums)
+                                  : store_units_as(false, values, vertex, end, sums);
+}
+
+/* ---- Groups ---- */
+
+static bool has_group(const area_range *range, mt_index group)
+{
+    return group >= range->group_begin && group < range->group_end;
+}
+
+static mt_index group_end(const area_job *area, mt_index group)
+{
+    mt_index begin = group << MT_SLAB_SHIFT, vertex_count = area->job->mesh->vertex_count;
+    return vertex_count - begin < MT_SLAB_SIZE ? vertex_count : begin + MT_SLAB_SIZE;
+}
+
+static void open_groups(area_job *area, area_range *range, mt_index block)
+{
+    for (mt_index group = area->plan.opened[block]; group != MT_NONE; group = area->plan.next_opened[group]) {
+        if (has_group(range, group)) {
+            mt_index slab = range->free_slabs[--range->free_count];
+            area->moves[group] = (slab - group) << MT_SLAB_SHIFT;
+            memset(area->sums + ((size_t)slab << MT_SLAB_SHIFT), 0, MT_SLAB_SIZE * sizeof *area->sums);
+        }
+    }
+}
+
+static void close_groups(area_job *area, area_range *range, mt_index block)
+{
+    for (mt_index group = area->plan.closed[block]; group != MT_NONE; group = area->plan.next_closed[group]) {
+        if (has_group(range, group)) {
+            mt_index begin = group << MT_SLAB_SHIFT, at = begin + area->moves[group];
+            range->undefined_count += store_units(area->job->values, begin, group_end(area, group), area->sums + at);
+            range->free_slabs[range->free_count++] = at >> MT_SLAB_SHIFT;
+        }
+    }
+}
+
+/* Vertices of no face. */
+static void store_unopened(area_job *area, area_range *range)
+{
+    const double4 zero = {0};
+    mt_index group = area->plan.opened[area->plan.block_count];
+    for (; group != MT_NONE; group = area->plan.next_opened[group]) {
+        if (has_group(range, group)) {
+            for (mt_index vertex = group << MT_SLAB_SHIFT; vertex < group_end(area, group); vertex++) {
+                range->undefined_count += store_unit(area->job->values, vertex, &zero);
+            }
+        }
+    }
 }
 
 static void add_range(void *user, uint64_t number, uint64_t end)
 {
     (void)end;
     area_job *area = user;
-    const mt_mesh *mesh = area->job->mesh;
-    uint64_t begin = (uint64_t)mesh->vertex_count * number / area->range_count;
-    uint64_t count = (uint64_t)mesh->vertex_count * (number + 1) / area->range_count - begin;
-    memset(area->sums + 3 * begin, 0, 3 * count * sizeof(double));
-    block_task task = {mesh, area->sums, 0, 0, (mt_index)begin, (mt_index)count};
-    bool fits = true;
-    for (const face_block *block = area->blocks; task.face < mesh->face_count; block++, task.face = task.face_end) {
-        task.face_end = block_end(mesh, task.face);
-        bool apart = block->high < begin || block->low >= begin + count;
-        bool inside = block->low >= begin && block->high < begin + count;
-        bool near = block->high - block->low < WIDE_BLOCK;
-        fits = (apart || add_block(&task, inside, near)) && fits;
+    area_range *range = &area->ranges[number];
+    mt_index begin = range->group_begin << MT_SLAB_SHIFT;
+    mt_index count = range->group_begin < range->group_end ? group_end(area, range->group_end - 1) - begin : 0;
+    block_task task = {area->job->mesh, area->sums, area->moves, 0, 0, begin, count};
+    for (mt_index number_of_block = 0; number_of_block < area->plan.block_count; number_of_block++) {
+        const mt_face_block *block = &area->plan.blocks[number_of_block];
+        task.face = number_of_block * MT_FACE_BLOCK;
+        task.face_end = mt_face_block_end(&area->plan, task.face);
+        bool apart = !count || block->high < begin || (block->low > begin && block->low - begin >= count);
+        bool inside = block->low >= begin && block->high - begin < count;
+        open_groups(area, range, number_of_block);
+        range->fits = (apart || add_block(&task, inside, block->high - block->low < WIDE_BLOCK)) && range->fits;
+        close_groups(area, range, number_of_block);
     }
-    area->out_of_range[number] = !fits;
+    store_unopened(area, range);
 }
 
-static MT_CLONES void find_lowest_and_highest(const mt_index *vertices, mt_index count, face_block *block)
-{
-    mt_index low = MT_NONE, high = 0;
-    for (mt_index i = 0; i < count; i++) {
-        low = vertices[i] < low ? vertices[i] : low;
-        high = vertices[i] > high ? vertices[i] : high;
-    }
-    block->low = low;
-    block->high = high;
-}
-
-static void find_block(void *user, uint64_t begin, uint64_t end)
-{
-    const area_job *area = user;
-    const mt_mesh *mesh = area->job->mesh;
-    mt_index corner = mt_mesh_face_begin(mesh, (mt_index)begin);
-    mt_index corner_count = mt_mesh_face_end(mesh, (mt_index)end - 1) - corner;
-    find_lowest_and_highest(mesh->corner_vertices + corner, corner_count, &area->blocks[begin / FACE_BLOCK]);
-}
+/* ---- Ranges ---- */
 
 /* A range for each thread, unless that many would do the same work several times. */
-static mt_index choose_range_count(const area_job *area, uint64_t block_count)
+static mt_index choose_range_count(const area_job *area)
 {
     unsigned threads = mt_context_thread_count(area->job->context);
     mt_index ranges = threads < RANGES_MAXIMUM ? threads : RANGES_MAXIMUM;
-    uint64_t range_size = area->job->mesh->vertex_count / ranges, spread = 0;
-    for (uint64_t i = 0; i < block_count; i++) {
-        spread += area->blocks[i].high - area->blocks[i].low > range_size / 2;
+    mt_index range_size = area->job->mesh->vertex_count / ranges, spread = 0;
+    for (mt_index i = 0; i < area->plan.block_count; i++) {
+        spread += area->plan.blocks[i].high - area->plan.blocks[i].low > range_size / 2;
     }
-    return spread > block_count / 2 ? 1 : ranges;
+    return spread > area->plan.block_count / 2 ? 1 : ranges;
 }
 
-/* Vertices whose lengths are found together, so that roots and quotients are taken several at once. */
-#define UNIT_GROUP 256
-
-/* Stores 1 / length of each sum, of no use where that is not plain. */
-static MT_CLONES void find_scales(const double *sums, mt_index count, double *scales)
-{
-    for (mt_index i = 0; i < count; i++) {
-        mt_vec3 sum = mt_vec3_make(sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]);
-        scales[i] = mt_symmetric_dot(sum, sum);
-    }
-    for (mt_index i = 0; i < count; i++) {
-        scales[i] = 1 / sqrt(scales[i]);
-    }
-}
-
-static void make_units(void *user, uint64_t begin, uint64_t end)
-{
-    const area_job *area = user;
-    mt_attribute *values = area->job->values;
-    mt_index undefined = 0;
-    double scales[UNIT_GROUP];
-    for (uint64_t first = begin; first < end; first += UNIT_GROUP) {
-        mt_index count = end - first < UNIT_GROUP ? (mt_index)(end - first) : UNIT_GROUP;
-        const double *sums = area->sums + 3 * first;
-        find_scales(sums, count, scales);
-        for (mt_index i = 0; i < count; i++) {
-            mt_vec3 sum = mt_vec3_make(sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]);
-            mt_vec3 n = mt_is_plain(sum) ? mt_vec3_scale(sum, scales[i]) : mt_unit_vector(sum);
-            mt_store_normal(values->values, values->type, first + i, n);
-            undefined += mt_vector_is_zero(n);
-        }
-    }
-    mt_count_undefined(area->job, undefined);
-}
-
-static void sum_and_make_units(area_job *area, bool *done)
+static mt_status allocate_ranges(area_job *area)
 {
     mt_context *context = area->job->context;
-    const mt_mesh *mesh = area->job->mesh;
-    mt_parallel_for(context, mesh->face_count, FACE_BLOCK, find_block, area);
-    area->range_count = choose_range_count(area, ((uint64_t)mesh->face_count + FACE_BLOCK - 1) / FACE_BLOCK);
-    mt_parallel_for(context, area->range_count, 1, add_range, area);
-    *done = true;
+    uint64_t slab_count = 0, group_count = area->plan.group_count;
+    area->range_count = choose_range_count(area);
     for (mt_index i = 0; i < area->range_count; i++) {
-        *done = *done && !area->out_of_range[i];
+        area_range *range = &area->ranges[i];
+        *range = (area_range){.group_begin = (mt_index)(group_count * i / area->range_count),
+                              .group_end = (mt_index)(group_count * (i + 1) / area->range_count),
+                              .fits = true};
+        range->free_count = mt_slab_plan_peak(&area->plan, range->group_begin, range->group_end);
+        slab_count += range->free_count;
     }
-    if (*done) {
-        mt_parallel_for(context, mesh->vertex_count, MT_NORMALS_GRAIN, make_units, area);
+    area->sums = mt_allocate_array(context, slab_count << MT_SLAB_SHIFT, sizeof *area->sums);
+    area->moves = mt_allocate_array_zeroed(context, group_count, sizeof *area->moves);
+    area->free_slabs = mt_allocate_array(context, slab_count, sizeof *area->free_slabs);
+    return area->sums && area->moves && area->free_slabs ? MT_OK : mt_context_error(context)->status;
+}
+
+static void deal_slabs(area_job *area)
+{
+    mt_index slab = 0;
+    for (mt_index i = 0; i < area->range_count; i++) {
+        area_range *range = &area->ranges[i];
+        range->free_slabs = area->free_slabs + slab;
+        for (mt_index k = range->free_count; k-- > 0;) {
+            range->free_slabs[k] = slab++;
+        }
     }
+}
+
+static bool add_ranges(area_job *area)
+{
+    deal_slabs(area);
+    mt_parallel_for(area->job->context, area->range_count, 1, add_range, area);
+    bool fits = true;
+    mt_index undefined_count = 0;
+    for (mt_index i = 0; i < area->range_count; i++) {
+        fits = fits && area->ranges[i].fits;
+        undefined_count += area->ranges[i].undefined_count;
+    }
+    mt_count_undefined(area->job, fits ? undefined_count : 0);
+    return fits;
 }
 
 mt_status mt_normals_by_area(mt_normals_job *job, bool *done)
 {
     area_job area = {.job = job};
-    bool in_place = job->values->type == MT_F64;
-    area.blocks = mt_allocate_array(job->context, job->mesh->face_count / FACE_BLOCK + 1, sizeof *area.blocks);
-    area.sums =
-        in_place ? job->values->values : mt_allocate_array(job->context, job->mesh->vertex_count, 3 * sizeof(double));
-    mt_status status = area.blocks && area.sums ? MT_OK : mt_context_error(job->context)->status;
+    mt_status status = mt_slab_plan_init(job->context, job->mesh, &area.plan);
     if (status == MT_OK) {
-        sum_and_make_units(&area, done);
+        status = allocate_ranges(&area);
     }
-    mt_free(job->context, area.blocks);
-    mt_free(job->context, in_place ? NULL : area.sums);
+    *done = status == MT_OK && add_ranges(&area);
+    mt_free(job->context, area.sums);
+    mt_free(job->context, area.moves);
+    mt_free(job->context, area.free_slabs);
+    mt_slab_plan_release(job->context, &area.plan);
     return status;
 }
