@@ -1,16 +1,12 @@
 /* The maximum of a one-sided distance, to a tolerance, by branch and bound over pieces of triangles.
  *
- * Above: the distance to one element is convex, so on a piece it is largest at a corner, and the distance to the
- * surface is no larger: the least of those bounds over the elements nearest to the piece's corners and its middle
- * (Guthe, Borodin and Klein, "Fast and accurate Hausdorff distance calculation between meshes", WSCG 2005; Kang, Kyung,
- * Yoon and Kim, "Fast and robust Hausdorff distance computation from triangle mesh to quad mesh in near-real time",
- * CAGD 2018); also no point is farther than a sample plus the way to it. Below: the largest distance of a sample. The
- * pieces of the largest bounds are quartered, a fixed number at a time so that threads change nothing, until none is
- * above the maximum by more than the tolerance.
+ * Above: what deviation_bound.c says of a piece. Below: the largest distance of a sample. The pieces of the largest
+ * bounds are quartered, a fixed number at a time so that threads change nothing, until none is above the maximum by
+ * more than the tolerance.
  *
  * Known weakness: surfaces at a constant distance above finely curved ones keep all pieces near until those are small;
  * past WORK_LIMIT the search stops, and says by the error what it left. */
-#include "lib/algorithms/deviation_side.h"
+#include "lib/algorithms/deviation_bound.h"
 
 #include <string.h>
 
@@ -21,14 +17,6 @@
 #define WORK_LIMIT 1000000
 #define WORK_PER_TRIANGLE 4
 
-/* Of the longest side: no point of a triangle is farther from all three corners. */
-#define COVER 0.57735026918962585
-
-typedef struct piece {
-    mt_deviation_triangle shape;
-    mt_deviation_near corners[3], middle;
-} piece;
-
 typedef struct entry {
     double upper;
     mt_index number; /* of a triangle, or of a piece in the pool */
@@ -36,7 +24,7 @@ typedef struct entry {
 } entry;
 
 typedef struct quarters {
-    piece parts[4];
+    mt_deviation_piece parts[4];
     double uppers[4];
     double max;
     mt_vec3 at;
@@ -47,62 +35,19 @@ typedef struct search {
     double *uppers; /* per triangle */
     entry *heap;
     uint64_t heap_size, heap_capacity;
-    piece *pool;
+    mt_deviation_piece *pool;
     mt_index *free_pieces;
     mt_index pool_size, pool_capacity, free_count;
     double pruned; /* the largest bound that was let go */
-    piece *batch;
+    mt_deviation_piece *batch;
     quarters *results;
     mt_index batch_count;
 } search;
 
-static mt_vec3 middle_of(const mt_deviation_triangle *t)
-{
-    return mt_deviation_point(t, 1.0 / 3, 1.0 / 3, 1.0 / 3);
-}
-
-static double to_element(const search *s, mt_vec3 point, mt_index element)
-{
-    mt_closest closest;
-    mt_surface_element_closest(s->job->to->tree, element, point, &closest);
-    return closest.distance;
-}
-
-/* The largest distance of the corners to one element; stops where it is no better than `known`. */
-static double convex_bound(const search *s, const piece *p, mt_index element, double known)
-{
-    double largest = 0;
-    for (int i = 0; i < 3 && largest < known; i++) {
-        double distance =
-            p->corners[i].element == element ? p->corners[i].distance : to_element(s, p->shape.corners[i], element);
-        largest = distance > largest ? distance : largest;
-    }
-    return largest;
-}
-
-static double bound_piece(const search *s, const piece *p, double enough)
-{
-    double nearest = 0, longest = 0, reach = 0;
-    mt_vec3 middle = middle_of(&p->shape);
-    for (int i = 0; i < 3; i++) {
-        mt_vec3 a = p->shape.corners[i], b = p->shape.corners[(i + 1) % 3];
-        longest = fmax(longest, mt_vec3_length(mt_vec3_subtract(b, a)));
-        reach = fmax(reach, mt_vec3_length(mt_vec3_subtract(a, middle)));
-        nearest = fmax(nearest, p->corners[i].distance);
-    }
-    double bound = fmin(nearest + COVER * longest, p->middle.distance + reach);
-    const mt_index elements[4] = {p->middle.element, p->corners[0].element, p->corners[1].element,
-                                  p->corners[2].element};
-    for (int i = 0; i < 4 && bound > enough; i++) {
-        bound = fmin(bound, convex_bound(s, p, elements[i], bound));
-    }
-    return bound;
-}
-
-static piece piece_of_triangle(const search *s, mt_index triangle)
+static mt_deviation_piece piece_of_triangle(const search *s, mt_index triangle)
 {
     const mt_deviation_surface *from = s->job->from;
-    piece p = {.shape = mt_deviation_triangle_of(from, triangle), .middle = s->job->centers[triangle]};
+    mt_deviation_piece p = {.shape = mt_deviation_triangle_of(from, triangle), .middle = s->job->centers[triangle]};
     for (mt_index side = 0; side < 3; side++) {
         mt_index corner = mt_triangulation_corner(&from->triangulation, triangle, side);
         p.corners[side] = s->job->vertices[from->mesh->corner_vertices[corner]];
@@ -115,30 +60,15 @@ static double limit_of(const search *s)
     return s->job->out->max + s->job->tolerance;
 }
 
-/* From the corners alone where they suffice; the middle is asked for when they do not, unless samples have it. */
 static double bound_triangle(const search *s, mt_index triangle)
 {
-    piece p = piece_of_triangle(s, triangle);
-    double nearest = 0, longest = 0;
-    for (int i = 0; i < 3; i++) {
-        if (p.corners[i].element == MT_NONE) {
-            return 0;
-        }
-        nearest = fmax(nearest, p.corners[i].distance);
-        longest = fmax(longest, mt_vec3_length(mt_vec3_subtract(p.shape.corners[(i + 1) % 3], p.shape.corners[i])));
+    mt_deviation_piece p = piece_of_triangle(s, triangle);
+    if (p.corners[0].element == MT_NONE || p.corners[1].element == MT_NONE || p.corners[2].element == MT_NONE) {
+        return 0;
     }
-    double bound = nearest + COVER * longest;
-    for (int i = 0; i < 3 && bound > limit_of(s); i++) {
-        bound = fmin(bound, convex_bound(s, &p, p.corners[i].element, bound));
-    }
-    if (bound <= limit_of(s)) {
-        return bound;
-    }
-    if (p.middle.element == MT_NONE) {
-        p.middle = mt_deviation_nearest(s->job->to, middle_of(&p.shape), p.corners[0].element);
-        s->job->centers[triangle] = p.middle;
-    }
-    return p.middle.element == MT_NONE ? 0 : bound_piece(s, &p, limit_of(s));
+    double bound = mt_deviation_bound(s->job->to, &p, limit_of(s));
+    s->job->centers[triangle] = p.middle;
+    return bound;
 }
 
 static void bound_triangles(void *user, uint64_t begin, uint64_t end)
@@ -149,8 +79,8 @@ static void bound_triangles(void *user, uint64_t begin, uint64_t end)
     }
 }
 
-static void set_part(const search *s, const piece *from, int which, const mt_vec3 halves[3],
-                     const mt_deviation_near near[3], piece *part)
+static void set_part(const search *s, const mt_deviation_piece *from, int which, const mt_vec3 halves[3],
+                     const mt_deviation_near near[3], mt_deviation_piece *part)
 {
     for (int i = 0; i < 3; i++) {
         /* part 3 is the middle one, whose corners are the halves; part k keeps corner k */
@@ -160,11 +90,12 @@ static void set_part(const search *s, const piece *from, int which, const mt_vec
         part->shape.corners[i] = is_corner ? from->shape.corners[i] : halves[half];
         part->corners[i] = is_corner ? from->corners[i] : near[half];
     }
-    part->middle = which == 3 ? from->middle
-                              : mt_deviation_nearest(s->job->to, middle_of(&part->shape), part->corners[which].element);
+    part->middle =
+        which == 3 ? from->middle
+                   : mt_deviation_nearest(s->job->to, mt_deviation_middle(&part->shape), part->corners[which].element);
 }
 
-static void quarter(const search *s, const piece *p, quarters *out)
+static void quarter(const search *s, const mt_deviation_piece *p, quarters *out)
 {
     mt_vec3 halves[3];
     mt_deviation_near near[3];
@@ -180,13 +111,13 @@ static void quarter(const search *s, const piece *p, quarters *out)
         }
     }
     for (int which = 0; which < 4; which++) {
-        piece *part = &out->parts[which];
+        mt_deviation_piece *part = &out->parts[which];
         set_part(s, p, which, halves, near, part);
         if (part->middle.distance > out->max) {
             out->max = part->middle.distance;
-            out->at = middle_of(&part->shape);
+            out->at = mt_deviation_middle(&part->shape);
         }
-        out->uppers[which] = bound_piece(s, part, limit_of(s));
+        out->uppers[which] = mt_deviation_bound(s->job->to, part, limit_of(s));
     }
 }
 
@@ -246,7 +177,7 @@ static entry pop(search *s)
 }
 
 /* Keeps what may still hold the maximum. */
-static bool keep_piece(search *s, const piece *p, double upper)
+static bool keep_piece(search *s, const mt_deviation_piece *p, double upper)
 {
     if (upper <= limit_of(s)) {
         s->pruned = fmax(s->pruned, upper);
@@ -254,7 +185,7 @@ static bool keep_piece(search *s, const piece *p, double upper)
     }
     if (!s->free_count && s->pool_size == s->pool_capacity) {
         uint64_t capacity = 2 * (uint64_t)s->pool_capacity + 4096;
-        piece *larger = mt_reallocate(s->job->context, s->pool, capacity * sizeof *larger);
+        mt_deviation_piece *larger = mt_reallocate(s->job->context, s->pool, capacity * sizeof *larger);
         if (!larger) {
             return false;
         }
@@ -276,7 +207,7 @@ static void take_batch(search *s)
     s->batch_count = 0;
     while (s->heap_size && s->batch_count < BATCH_SIZE && s->heap[0].upper > limit_of(s)) {
         entry item = pop(s);
-        piece *to = &s->batch[s->batch_count++];
+        mt_deviation_piece *to = &s->batch[s->batch_count++];
         if (item.is_piece) {
             *to = s->pool[item.number];
             s->free_pieces[s->free_count++] = item.number;
@@ -311,7 +242,7 @@ static void note_middle(search *s, mt_index triangle)
     if (s->job->centers[triangle].distance > out->max) {
         mt_deviation_triangle shape = mt_deviation_triangle_of(s->job->from, triangle);
         out->max = s->job->centers[triangle].distance;
-        out->from = middle_of(&shape);
+        out->from = mt_deviation_middle(&shape);
     }
 }
 

@@ -176,7 +176,7 @@ MT_INLINE void visit_leaf(nearest_walk *walk, uint32_t child)
             return;
         }
         mt_index number = mt_leaf_number(rows, count, (mt_index)lane);
-        mt_element_distance found = mt_element_distance_to(walk->tree, number, walk->scaled);
+        mt_element_distance found = mt_element_distance_inline(walk->tree, number, walk->scaled);
         keep(walk, number, &found);
     }
 }
@@ -323,4 +323,10 @@ void mt_surface_element_closest(const mt_surface_tree *tree, mt_index element, m
 {
     mt_element_distance found = mt_element_distance_to(tree, element, mt_vec3_scale(point, tree->space.scale));
     report(tree, element, &found, out);
+}
+
+double mt_surface_element_distance(const mt_surface_tree *tree, mt_index element, mt_vec3 point)
+{
+    mt_element_distance found = mt_element_distance_to(tree, element, mt_vec3_scale(point, tree->space.scale));
+    return sqrt(found.square) / tree->space.scale;
 }

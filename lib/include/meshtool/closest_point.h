@@ -42,6 +42,9 @@ bool mt_surface_tree_closest(const mt_surface_tree *tree, mt_vec3 point, const m
 /* The nearest point of one element, by the same arithmetic. */
 void mt_surface_element_closest(const mt_surface_tree *tree, mt_index element, mt_vec3 point, mt_closest *out);
 
+/* Its distance alone. */
+double mt_surface_element_distance(const mt_surface_tree *tree, mt_index element, mt_vec3 point);
+
 #ifdef __cplusplus
 }
 #endif
