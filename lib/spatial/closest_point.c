@@ -54,13 +54,13 @@ static void keep(nearest_walk *walk, mt_index number, const mt_element_distance 
     }
 }
 
-/* Squared distances of a node's boxes, none too large; returns the bits of those not beyond the limit. */
-MT_INLINE uint32_t approach_children(const nearest_walk *walk, const mt_surface_node *node, float near[MT_WIDTH])
+/* Squared distances of a node's boxes, none too large; passes: -1 for those not beyond the limit, else 0. */
+MT_INLINE void approach_children(const nearest_walk *walk, const mt_surface_node *node, float near[MT_WIDTH],
+                                 int32_t passes[MT_WIDTH])
 {
     const float limit = walk->limit;
     const float lx = walk->low[0], ly = walk->low[1], lz = walk->low[2];
     const float hx = walk->high[0], hy = walk->high[1], hz = walk->high[2];
-    int32_t passes[MT_WIDTH];
     for (int lane = 0; lane < MT_WIDTH; lane++) {
         float x = node->planes[0][lane] - hx, x2 = lx - node->planes[1][lane];
         float y = node->planes[2][lane] - hy, y2 = ly - node->planes[3][lane];
@@ -74,7 +74,27 @@ MT_INLINE uint32_t approach_children(const nearest_walk *walk, const mt_surface_
         near[lane] = (x * x + y * y + z * z) * BELOW;
         passes[lane] = near[lane] <= limit ? -1 : 0;
     }
-    return mt_bits_of(passes);
+}
+
+/* Pushes the children that pass, the nearest on top; returns the new depth. Each goes to the place that the number of
+ * farther ones tells, so that there is nothing to predict; those that do not pass all go above the top. */
+MT_INLINE size_t push_in_order(const mt_surface_node *node, const float near[MT_WIDTH], const int32_t passes[MT_WIDTH],
+                               mt_pending *stack, size_t depth)
+{
+    int32_t keys[MT_WIDTH], places[MT_WIDTH] = {0};
+    memcpy(keys, near, sizeof keys);
+    for (int lane = 0; lane < MT_WIDTH; lane++) {
+        keys[lane] = ((keys[lane] & ~(MT_WIDTH - 1)) | lane) | ~passes[lane]; /* ordered as the floats; no two alike */
+    }
+    for (int other = 0; other < MT_WIDTH; other++) {
+        for (int lane = 0; lane < MT_WIDTH; lane++) {
+            places[lane] += keys[other] > keys[lane];
+        }
+    }
+    for (int lane = 0; lane < MT_WIDTH; lane++) {
+        stack[depth + (size_t)places[lane]] = mt_pending_make(near[lane], node->children[lane]);
+    }
+    return depth + (size_t)__builtin_popcount(mt_bits_of(passes));
 }
 
 /* While no element is known, the farthest points of a node's boxes bound the distance: each box holds an element. That
@@ -183,7 +203,7 @@ MT_INLINE void visit_leaf(nearest_walk *walk, uint32_t child)
 
 MT_CLONES static void walk_depth_first(nearest_walk *walk, mt_pending start)
 {
-    mt_pending stack[MT_SURFACE_STACK];
+    mt_pending stack[MT_SURFACE_STACK + 1];
     size_t depth = 1;
     stack[0] = start;
     while (depth) {
@@ -197,12 +217,13 @@ MT_CLONES static void walk_depth_first(nearest_walk *walk, mt_pending start)
             continue;
         }
         float near[MT_WIDTH];
+        int32_t passes[MT_WIDTH];
         const mt_surface_node *node = &walk->tree->nodes[child];
         if (walk->element == MT_NONE) {
             bound_by_boxes(walk, node);
         }
-        uint32_t bits = approach_children(walk, node, near);
-        depth = mt_push_children(node, near, bits, stack, depth);
+        approach_children(walk, node, near, passes);
+        depth = push_in_order(node, near, passes, stack, depth);
     }
 }
 
@@ -237,12 +258,13 @@ static mt_pending heap_pop(mt_pending *heap, size_t size)
 MT_CLONES static bool open_node(nearest_walk *walk, uint32_t child, mt_pending *heap, size_t *size)
 {
     float near[MT_WIDTH];
+    int32_t passes[MT_WIDTH];
     const mt_surface_node *node = &walk->tree->nodes[child];
-    uint32_t bits = approach_children(walk, node, near);
+    approach_children(walk, node, near, passes);
     if (*size + MT_WIDTH > HEAP_SIZE) {
         return false;
     }
-    for (; bits; bits &= bits - 1) {
+    for (uint32_t bits = mt_bits_of(passes); bits; bits &= bits - 1) {
         heap_push(heap, (*size)++, mt_pending_first(node, near, bits));
     }
     return true;
