@@ -1,6 +1,6 @@
 /* Blocks carry their size in front, so that the limit and the peak are exact. Large ones are aligned to the huge
  * page and advised to it: the kernel then fills 2 MB at a fault instead of 4 KB, which costs less than the
- * algorithms that fill the memory. */
+ * algorithms that fill the memory. Those below, but above what malloc keeps, are filled at one call. */
 #include "lib/base/context.h"
 
 #include <meshtool/checked.h>
@@ -12,6 +12,8 @@
 #define HEADER_SIZE 64
 #define HUGE_BLOCK ((uint64_t)1 << 20)
 #define HUGE_PAGE ((uint64_t)2 << 20)
+#define POPULATED_BLOCK ((uint64_t)128 << 10) /* what malloc takes fresh from the kernel */
+#define PAGE ((uintptr_t)4096)
 
 typedef struct block_header {
     uint64_t size; /* as asked for */
@@ -42,6 +44,19 @@ static bool reserve_bytes(mt_context *context, uint64_t size)
     return true;
 }
 
+/* The whole pages of a block at one call. A kernel before 5.14 refuses, and fills them one fault each. */
+static void populate(char *base, uint64_t size)
+{
+#ifdef MADV_POPULATE_WRITE
+    uintptr_t begin = ((uintptr_t)base + PAGE - 1) / PAGE * PAGE, end = ((uintptr_t)base + size) / PAGE * PAGE;
+    if (begin < end) {
+        madvise((void *)begin, end - begin, MADV_POPULATE_WRITE);
+    }
+#else
+    (void)base, (void)size;
+#endif
+}
+
 static void *allocate_block(uint64_t size)
 {
     if (size > SIZE_MAX / 2) {
@@ -56,6 +71,8 @@ static void *allocate_block(uint64_t size)
     }
     if (huge) {
         madvise(base, whole, MADV_HUGEPAGE);
+    } else if (size >= POPULATED_BLOCK) {
+        populate(base, whole);
     }
     block_header *header = (block_header *)(void *)base;
     header->size = size;
