@@ -1,8 +1,9 @@
-/* How a preview finds what each sample sees: triangle by triangle or ray by ray. The two find the same pictures, or one
- * of them is wrong. */
+/* How a preview finds what each sample sees: triangle by triangle or ray by ray. Which faces are seen is judged by rays
+ * in 113 bits through a sample of pixels, from a camera that both know; the usual pictures must be the same as well. */
+#include "tradeoff/face_picture.h"
+#include "tradeoff/pixel_oracle.h"
 #include "tradeoff/tradeoff.h"
 
-#include <meshtool/image.h>
 #include <meshtool/preview.h>
 
 #include <stdio.h>
@@ -16,7 +17,7 @@ static const mt_visibility_method methods[] = {MT_METHOD_RASTER, MT_METHOD_RAY};
 
 typedef struct visibility_state {
     const mt_mesh *mesh;
-    mt_image *reference; /* by the other method */
+    pixel_oracle oracle;
     mt_image *picture;
 } visibility_state;
 
@@ -39,13 +40,13 @@ static mt_status prepare(const tradeoff_subject *subject, void **state, const ch
         return MT_ERROR_OUT_OF_MEMORY;
     }
     s->mesh = subject->mesh;
-    return draw(context, s->mesh, MT_METHOD_RASTER, &s->reference);
+    return pixel_oracle_make(context, s->mesh, subject->diagonal, &s->oracle);
 }
 
 static void release(void *state, mt_context *context)
 {
     visibility_state *s = state;
-    mt_image_destroy(context, s->reference);
+    pixel_oracle_release(context, &s->oracle);
     mt_free(context, s);
 }
 
@@ -62,28 +63,83 @@ static void discard(void *state, mt_context *context)
     s->picture = NULL;
 }
 
+/* Pixels in which the usual picture is not the other method's. */
+static mt_status count_differing(const visibility_state *s, size_t level, mt_context *context, size_t *differing)
+{
+    mt_image *other = NULL;
+    mt_status status = draw(context, s->mesh, methods[!level], &other);
+    size_t channel_count = s->picture->channel_count, size = channel_count * sizeof(float);
+    for (size_t i = 0; status == MT_OK && i < (size_t)SIZE * SIZE; i++) {
+        const float *a = s->picture->pixels + i * channel_count, *b = other->pixels + i * channel_count;
+        *differing += memcmp(a, b, size) != 0;
+    }
+    mt_image_destroy(context, other);
+    return status;
+}
+
+static void copy(mt_vec3 v, double out[3])
+{
+    out[0] = v.x, out[1] = v.y, out[2] = v.z;
+}
+
+/* Pixels of the oracle's sample that show another face than its ray meets. */
+static mt_status count_wrong(const visibility_state *s, size_t level, mt_context *context, size_t *judged,
+                             size_t *wrong)
+{
+    const pixel_oracle *oracle = &s->oracle;
+    mt_preview_options options = {.width = PIXEL_ORACLE_SIZE, .height = PIXEL_ORACLE_SIZE, .method = methods[level]};
+    options.has_eye = options.has_target = options.has_up = true;
+    options.fov_degrees = PIXEL_ORACLE_DEGREES;
+    copy(oracle->eye, options.eye);
+    copy(oracle->target, options.target);
+    copy(oracle->up, options.up);
+    mt_index *faces = mt_allocate_array(context, (uint64_t)PIXEL_ORACLE_SIZE * PIXEL_ORACLE_SIZE, sizeof *faces);
+    if (!faces) {
+        return MT_ERROR_OUT_OF_MEMORY;
+    }
+    mt_status status = oracle->count > 0 ? face_picture_draw(context, s->mesh, &options, faces) : MT_OK;
+    for (size_t i = 0; status == MT_OK && i < oracle->count; i++) {
+        *judged += oracle->is_clear[i];
+        *wrong += oracle->is_clear[i] && faces[oracle->pixels[i]] != oracle->faces[i];
+    }
+    mt_free(context, faces);
+    return status;
+}
+
 static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_row *row)
 {
-    (void)context;
-    (void)level;
     const visibility_state *s = state;
-    size_t differing = 0, size = s->picture->channel_count * sizeof(float);
-    for (uint32_t i = 0; i < SIZE * SIZE; i++) {
-        const float *a = s->picture->pixels + (size_t)i * s->picture->channel_count;
-        differing += memcmp(a, s->reference->pixels + (size_t)i * s->reference->channel_count, size) != 0;
+    size_t differing = 0, judged = 0, wrong = 0, hits = 0;
+    mt_status status = count_differing(s, level, context, &differing);
+    if (status == MT_OK) {
+        status = count_wrong(s, level, context, &judged, &wrong);
     }
+    for (size_t i = 0; i < s->oracle.count; i++) {
+        hits += s->oracle.is_clear[i] && s->oracle.faces[i] != MT_NONE;
+    }
+    tradeoff_add_error(row, "wrong_pixels", judged > 0 ? (double)wrong : (double)NAN);
     tradeoff_add_error(row, "differing_pixels", (double)differing);
-    row->is_defect = differing > 0;
-    snprintf(row->says, sizeof row->says,
-             differing ? "%zu pixels differ: a defect" : "nothing: the pictures are the same", differing);
-    return MT_OK;
+    tradeoff_add_size(row, "judged_pixels", (double)judged);
+    row->is_defect = differing > 0 || wrong > 0;
+    if (row->is_defect) {
+        snprintf(row->says, sizeof row->says,
+                 "%zu of %zu pixels do not show what a ray meets, and %zu differ from the other's: a defect", wrong,
+                 judged, differing);
+    } else if (judged == 0) {
+        snprintf(row->says, sizeof row->says, "no pixel could be judged; the pictures of both are the same");
+    } else {
+        snprintf(row->says, sizeof row->says,
+                 "nothing: %zu pixels show what a ray meets, %zu of them a face; the pictures of both are the same",
+                 judged, hits);
+    }
+    return status;
 }
 
 const tradeoff_knob tradeoff_visibility = {
     .name = "visibility",
     .question = "Does a picture go triangle by triangle or ray by ray?",
-    .oracle = "each other",
-    .axis = "differing_pixels",
+    .oracle = "rays in 113-bit arithmetic; each other",
+    .axis = "wrong_pixels",
     .levels = levels,
     .prepare = prepare,
     .run = run,

@@ -16,6 +16,8 @@ done
 # Runs that are repeated have a spread.
 run 0 tradeoff "$folder/torus.ply" --budget 2 --knob visibility --json
 case $out in *'"spread": null'*) fail "a spread is missing: $out" ;; *) pass ;; esac
+holds "nothing is wrong" test "$(grep -o '"wrong_pixels": 0.0' <<<"$out" | wc -l)" = 2
+holds "pixels were judged" grep -q '"judged_pixels": 39[0-9][0-9]' <<<"$out"
 holds "nothing differs" test "$(grep -o '"differing_pixels": 0.0' <<<"$out" | wc -l)" = 2
 
 # Two triangles of nearly one plane that do not meet: in doubles alone they do. The oracle knows.
