@@ -17,6 +17,7 @@ static mt_closest brute_force(const mt_surface_tree *tree, const uint8_t *held, 
     for (uint64_t i = 0; i < end; i++) {
         if (held[i]) {
             mt_surface_element_closest(tree, (mt_index)i, point, &one);
+            assert_true(mt_surface_element_distance(tree, (mt_index)i, point) == one.distance);
             best = one.distance < best.distance ? one : best;
         }
     }
