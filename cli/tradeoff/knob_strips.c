@@ -1,4 +1,5 @@
-/* How long strips are searched for. Whether they draw every triangle once is found by sorting triangles. */
+/* How long strips are searched for. Whether they draw every triangle once is found by sorting triangles that are
+ * read off the strips here. */
 #include "tradeoff/tradeoff.h"
 
 #include <meshtool/strips.h>
@@ -92,15 +93,30 @@ static void discard(void *state, mt_context *context)
     s->strips = NULL;
 }
 
-/* Triangles that strips draw too often or not at all. */
-static size_t count_wrong(const strip_state *s, const mt_index *drawn, mt_index count, triple *scratch)
+/* What a strip draws, by its definition: every index after the second makes a triangle, each other one turned over;
+ * those that name a vertex twice only serve to turn, unless they are the strip. Returns how many it wrote. */
+static size_t draw(const mt_index *indices, size_t length, triple *drawn)
 {
-    for (mt_index i = 0; i < count; i++) {
-        scratch[i] = turned(drawn[3 * i], drawn[3 * i + 1], drawn[3 * i + 2]);
+    size_t count = 0;
+    for (size_t i = 2; i < length; i++) {
+        mt_index a = indices[i - 2], b = indices[i - 1], c = indices[i];
+        if ((a != b && b != c && c != a) || length == 3) {
+            drawn[count++] = i % 2 == 0 ? turned(a, b, c) : turned(b, a, c);
+        }
+    }
+    return count;
+}
+
+/* Triangles that strips draw too often or not at all. */
+static size_t count_wrong(const strip_state *s, triple *scratch)
+{
+    size_t count = 0, total = s->triangulation.triangle_count, i = 0, j = 0;
+    for (mt_index strip = 0; strip < s->strips->strip_count; strip++) {
+        mt_index begin = s->strips->offsets[strip], end = s->strips->offsets[strip + 1];
+        count += draw(s->strips->indices + begin, end - begin, scratch + count);
     }
     qsort(scratch, count, sizeof *scratch, compare_triples);
     size_t wrong = 0;
-    mt_index i = 0, j = 0, total = s->triangulation.triangle_count;
     while (i < total || j < count) {
         int order = i == total ? 1 : j == count ? -1 : compare_triples(&s->sorted[i], &scratch[j]);
         wrong += order != 0;
@@ -114,11 +130,9 @@ static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_
 {
     (void)level;
     const strip_state *s = state;
-    mt_index *drawn = NULL, count = 0;
-    mt_status status = mt_strips_triangles(context, s->strips, &drawn, &count);
-    triple *scratch = status == MT_OK ? mt_allocate_array(context, count, sizeof *scratch) : NULL;
+    triple *scratch = mt_allocate_array(context, s->strips->offsets[s->strips->strip_count], sizeof *scratch);
     if (scratch) {
-        size_t wrong = count_wrong(s, drawn, count, scratch);
+        size_t wrong = count_wrong(s, scratch);
         double length = (double)mt_strips_index_count(s->strips) / (double)s->triangulation.triangle_count;
         tradeoff_add_error(row, "wrong_triangles", (double)wrong);
         tradeoff_add_size(row, "indices_per_triangle", length);
@@ -128,8 +142,7 @@ static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_
                  length);
     }
     mt_free(context, scratch);
-    mt_free(context, drawn);
-    return status == MT_OK && !scratch ? MT_ERROR_OUT_OF_MEMORY : status;
+    return scratch ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
 }
 
 const tradeoff_knob tradeoff_strips = {
