@@ -17,7 +17,7 @@
 #define COLUMNS 2
 #define PANEL_WIDTH 560.0
 #define PANEL_HEIGHT 330.0
-#define HEADER 60.0
+#define HEADER 76.0
 #define LEFT 74.0
 #define RIGHT 34.0
 #define TOP 46.0
@@ -264,9 +264,9 @@ static void draw(const canvas *on, const tradeoff_subject *subject, const tradeo
              (unsigned)subject->mesh->face_count);
     canvas_begin(on, width, height);
     canvas_text(on, 18, 24, 12, PLOT_BEGIN, PLOT_INK, title);
-    canvas_text(
-        on, 18, 46, LETTER - 0.5, PLOT_BEGIN, PLOT_MUTED,
-        "Left is faster, lower is more exact. Filled: no other level is as fast and as exact. Ringed: the knee.");
+    canvas_text(on, 18, 46, LETTER - 0.5, PLOT_BEGIN, PLOT_MUTED, "Left is faster, lower is more exact.");
+    canvas_text(on, 18, 62, LETTER - 0.5, PLOT_BEGIN, PLOT_MUTED,
+                "Filled: no other level is as fast and as exact. Ringed: the knee.");
     size_t number = 0;
     for (size_t begin = 0, end; begin < table->row_count; begin = end, number++) {
         for (end = begin; end < table->row_count && table->rows[end].knob == table->rows[begin].knob;) {

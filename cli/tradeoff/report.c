@@ -75,6 +75,17 @@ static void print_losses(const tradeoff_table *table, size_t begin, size_t end)
     }
 }
 
+static void print_legend(const tradeoff_table *table)
+{
+    bool has_knee = false;
+    for (size_t i = 0; i < table->row_count; i++) {
+        has_knee |= table->rows[i].is_knee;
+    }
+    puts(has_knee ? "\n* the knee: beyond it, a little more costs much." : "");
+    puts("Times are medians; +- is half of their range. Errors: normals in degrees, distances and displacements in\n"
+         "diagonals of the mesh's box, t as a share of itself, missed_at_ and wrong_per_million of a million rays.");
+}
+
 void tradeoff_print_text(const tradeoff_subject *subject, const tradeoff_table *table)
 {
     printf("%s: %s, %s\n", subject->name, cli_counted(subject->mesh->vertex_count, "vertex").text,
@@ -92,7 +103,7 @@ void tradeoff_print_text(const tradeoff_subject *subject, const tradeoff_table *
                skip->level ? skip->level : "", skip->why);
     }
     if (table->row_count > 0) {
-        puts("\n* the knee: beyond it, a little more costs much. Times are medians; +- is half of their range.");
+        print_legend(table);
     }
 }
 

@@ -34,6 +34,10 @@ runs() {
     "render meshes/scenes/cut_away.json -o OUT.ppm --size 60x40 --samples 4" \
     "render meshes/scenes/many_lights.json -o OUT.ppm --size 48x32 --samples 1" \
     "topology $folder/sphere.ply --structure triangle-neighbor --json" "strips meshes/valid/teapot.obj -o OUT.glb --optimize cache" \
+    "normals meshes/valid/teapot.obj -o OUT.ply --kind face" "normals meshes/valid/teapot.obj -o OUT.ply --weight max" \
+    "strips meshes/valid/teapot.obj -o OUT.txt --kind mixed" \
+    "image $folder/teapot.ppm OUT.pfm --linear --gray" "image $folder/teapot.ppm OUT.png --bits 16 --over 200,10,30" \
+    "image $folder/teapot.ppm OUT.ppm --bayer GBRG --demosaic GBRG --srgb" \
     "image $folder/teapot.ppm OUT.ppm --hue-shift 40 --desaturate 0.5 --bayer RGGB --demosaic RGGB"
 }
 
@@ -76,7 +80,7 @@ mapfile -t commands < <("$meshtool" help | sed -n '/^Commands:/,/^$/s/^  \([a-z-
 holds "help lists the commands" test "${#commands[@]}" -ge 16
 for command in "${commands[@]}"; do
   case $command in
-  help | formats | tradeoff) ;; # no data; times
+  help | formats | tradeoff) ;; # no data, no threads; times
   *) holds "$command has a run" grep -q "^$command " <(runs) ;;
   esac
 done
