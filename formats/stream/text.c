@@ -3,7 +3,13 @@
 #include "formats/stream/cursor.h"
 #include "formats/stream/input.h"
 
-#define BLOCK_SIZE ((size_t)512 << 10)
+/* A block's text and numbers fit the cache in small ones; large ones cost fewer page faults, as what is kept of each is
+ * large enough for huge pages. So they are large where every thread still has several, and buffers are a small share of
+ * the file. Nothing that is read depends on it. */
+#define SMALLEST_BLOCK ((uint64_t)512 << 10)
+#define LARGEST_BLOCK ((uint64_t)4 << 20)
+#define BLOCKS_A_THREAD 8
+
 #define WAVE 64 /* blocks between two reports of progress */
 
 const char *mt_text_name(const mt_text *text)
@@ -55,12 +61,18 @@ static mt_status skip_mark(mt_context *context, mt_text *text)
     return MT_OK;
 }
 
+static size_t choose_block_size(uint64_t size, uint64_t threads)
+{
+    uint64_t block = size / (BLOCKS_A_THREAD * threads);
+    block = block < LARGEST_BLOCK ? block : LARGEST_BLOCK;
+    return (size_t)(block > SMALLEST_BLOCK ? block : SMALLEST_BLOCK);
+}
+
 static mt_status create_slots(mt_context *context, mt_text *text)
 {
-    uint64_t size = text->end - text->begin;
-    text->block_size = text->options.block_size ? text->options.block_size : BLOCK_SIZE;
+    uint64_t size = text->end - text->begin, threads = mt_context_thread_count(context);
+    text->block_size = text->options.block_size ? text->options.block_size : choose_block_size(size, threads);
     text->block_count = size == 0 ? 0 : (size - 1) / text->block_size + 1;
-    uint64_t threads = mt_context_thread_count(context);
     text->slot_count = (unsigned)(text->block_count < threads ? text->block_count : threads);
     text->slot_count += text->slot_count == 0;
     text->slots = mt_allocate_array_zeroed(context, text->slot_count, sizeof *text->slots);
