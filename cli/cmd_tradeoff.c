@@ -158,7 +158,7 @@ static cli_exit run(const cli_job *job)
 
 static void print_knobs(FILE *out)
 {
-    fputs("\nKnobs:\n", out);
+    fputs("Knobs:\n", out);
     for (size_t i = 0; tradeoff_knobs[i]; i++) {
         fprintf(out, "  %-16s %s\n", tradeoff_knobs[i]->name, tradeoff_knobs[i]->question);
     }
