@@ -163,12 +163,15 @@ double mt_deviation_bound(const mt_deviation_surface *to, mt_deviation_piece *pi
         corners[i].nearest = number_of(&b, piece->corners[i].element);
         corners[i].distances[corners[i].nearest] = piece->corners[i].distance;
     }
-    bound = fmin(bound, bound_by_one(&b, addresses));
-    if (bound <= enough) {
-        return bound;
-    }
     if (piece->middle.element == MT_NONE) {
+        bound = fmin(bound, bound_by_one(&b, addresses));
+        if (bound <= enough) {
+            return bound;
+        }
         piece->middle = mt_deviation_nearest(to, mt_deviation_middle(&piece->shape), piece->corners[0].element);
+        if (piece->middle.element == MT_NONE) { /* not finite: no place of the piece's */
+            return 0;
+        }
         if (piece->middle.distance > enough) {
             return bound;
         }

@@ -310,7 +310,9 @@ static mt_mesh *make_sheet(mt_context *context, bool near, mt_type type)
         mt_vec3 a = mt_mesh_position(mesh, corner[0]), b = mt_mesh_position(mesh, corner[1]);
         mt_vec3 c = mt_mesh_position(mesh, corner[2]);
         if (mt_vec3_cross(mt_vec3_subtract(b, a), mt_vec3_subtract(c, a)).z < 0) {
-            corner[1] ^= corner[2], corner[2] ^= corner[1], corner[1] ^= corner[2];
+            mt_index second = corner[1];
+            corner[1] = corner[2];
+            corner[2] = second;
         }
     }
     return mesh;
