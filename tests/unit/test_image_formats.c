@@ -1,5 +1,6 @@
 /* The table of image formats, the netpbm family and PFM byte by byte, and writing to a path. */
 #include "tests/support/picture.h"
+#include "tests/support/scratch.h"
 #include "tests/support/unit.h"
 
 #include <math.h>
@@ -83,13 +84,11 @@ static void what_a_format_cannot_hold_is_refused(void **state)
         {"x.ppm", 4, 8, MT_ERROR_UNSUPPORTED, "transparency"}, {"x.pfm", 4, 8, MT_ERROR_UNSUPPORTED, "transparency"},
         {"x.pgm", 3, 8, MT_ERROR_UNSUPPORTED, "grey"},         {"x.ppm", 3, 12, MT_ERROR_ARGUMENT, "12"},
         {"x.gif", 3, 8, MT_ERROR_ARGUMENT, "\"gif\""},         {"folder.ppm/x", 3, 8, MT_ERROR_ARGUMENT, "extension"}};
-    char folder[] = "/tmp/meshtool-test-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         mt_context *context = test_context();
         test_random random = {1};
         mt_image *image = test_picture(context, &random, 4, 4, rows[i].channel_count);
-        snprintf(path, sizeof path, "%s/%s", folder, rows[i].path);
+        const char *path = test_scratch_path(rows[i].path);
         mt_image_write_options options = {.bits = rows[i].bits};
         assert_int_equal(mt_image_write_file(context, image, path, &options), rows[i].status);
         assert_non_null(strstr(mt_context_error(context)->message, rows[i].says));
@@ -97,7 +96,7 @@ static void what_a_format_cannot_hold_is_refused(void **state)
         mt_image_destroy(context, image);
         test_context_end(context);
     }
-    assert_int_equal(rmdir(folder), 0);
+    assert_int_equal(test_scratch_count(), 0);
 }
 
 static void a_path_names_its_format(void **state)
@@ -120,9 +119,7 @@ static void files_are_written_and_kept(void **state)
 {
     (void)state;
     mt_context *context = test_context();
-    char folder[] = "/tmp/meshtool-test-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/picture.ppm", folder);
+    const char *path = test_scratch_path("picture.ppm");
     test_random random = {9};
     mt_image *image = test_picture(context, &random, 33, 17, 3);
     assert_int_equal(mt_image_write_file(context, image, path, NULL), MT_OK);
@@ -137,7 +134,7 @@ static void files_are_written_and_kept(void **state)
     mt_free(context, bytes);
     mt_image_destroy(context, image);
     assert_int_equal(unlink(path), 0);
-    assert_int_equal(rmdir(folder), 0);
+    assert_int_equal(test_scratch_count(), 0);
     test_context_end(context);
 }
 
@@ -170,11 +167,11 @@ static mt_status write_once(mt_context *context, const mt_image *image, const ch
 static void missing_memory_leaves_no_file(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/meshtool-test-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
     for (const mt_image_format *const *format = mt_image_formats(); *format; format++) {
         mt_status status = MT_ERROR_OUT_OF_MEMORY;
-        snprintf(path, sizeof path, "%s/x.%s", folder, (*format)->extensions[0]);
+        char name[32];
+        snprintf(name, sizeof name, "x.%s", (*format)->extensions[0]);
+        const char *path = test_scratch_path(name);
         for (uint64_t n = 3; status != MT_OK; n++) {
             mt_context_options options = {.failing_allocation = n, .thread_count = 1};
             mt_context *context = mt_context_create(&options);
@@ -189,7 +186,7 @@ static void missing_memory_leaves_no_file(void **state)
         }
         assert_int_equal(unlink(path), 0);
     }
-    assert_int_equal(rmdir(folder), 0);
+    assert_int_equal(test_scratch_count(), 0);
 }
 
 int main(void)
