@@ -2,26 +2,25 @@
 
 #include "tradeoff/integer.h"
 
-/* Both triangles' points as whole numbers: 0 to 2 and 3 to 5. */
+/* Both triangles' points as whole numbers: 0 to 2 and 3 to 5; of three points alone, the first three. */
 typedef struct pair {
     integer points[6][3];
 } pair;
 
-static void load(pair *p, const integer_triangle *a, const integer_triangle *b)
+static void load(pair *p, const mt_vec3 *points, int count)
 {
     double coordinates[6][3];
     int least = 0;
     bool is_first = true;
-    for (int i = 0; i < 6; i++) {
-        mt_vec3 point = i < 3 ? a->points[i] : b->points[i - 3];
-        coordinates[i][0] = point.x, coordinates[i][1] = point.y, coordinates[i][2] = point.z;
+    for (int i = 0; i < count; i++) {
+        coordinates[i][0] = points[i].x, coordinates[i][1] = points[i].y, coordinates[i][2] = points[i].z;
         for (int axis = 0; axis < 3; axis++) {
             int exponent = integer_exponent(coordinates[i][axis]);
             least = is_first || exponent < least ? exponent : least;
             is_first = false;
         }
     }
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < count; i++) {
         for (int axis = 0; axis < 3; axis++) {
             integer_from(coordinates[i][axis], least, &p->points[i][axis]);
         }
@@ -172,8 +171,9 @@ bool integer_triangles_intersect(const integer_triangle *a, const integer_triang
             }
         }
     }
+    const mt_vec3 points[6] = {a->points[0], a->points[1], a->points[2], b->points[0], b->points[1], b->points[2]};
     pair p;
-    load(&p, a, b);
+    load(&p, points, 6);
     if (shared > 2 || open_axis(&p, 0, 1, 2) < 0 || open_axis(&p, 3, 4, 5) < 0) {
         return false;
     }
@@ -185,4 +185,11 @@ bool integer_triangles_intersect(const integer_triangle *a, const integer_triang
     default: /* two of 0, 1 and 2 are the sum's complement to 3 */
         return are_folded(&p, 3 - of_a, 3 - of_b);
     }
+}
+
+bool integer_points_are_collinear(const mt_vec3 points[3])
+{
+    pair p;
+    load(&p, points, 3);
+    return open_axis(&p, 0, 1, 2) < 0;
 }

@@ -23,6 +23,7 @@ typedef struct volume_job {
     mt_context *context;
     const mt_mesh *mesh;
     const mt_components *components;
+    mt_arithmetic how;
     double scale;
     component_volume *volumes;
     int8_t *signs;
@@ -80,8 +81,14 @@ static void add_face(volume_job *job, mt_index face)
     }
 }
 
-static int8_t sign_of(const component_volume *volume)
+static int8_t sign_of(const component_volume *volume, mt_arithmetic how)
 {
+    if (how == MT_ARITHMETIC_EXACT) {
+        return UNDECIDED;
+    }
+    if (how == MT_ARITHMETIC_FLOATING) {
+        return (int8_t)((volume->sum > 0) - (volume->sum < 0));
+    }
     double count = volume->triangle_count;
     double bound = (TERM_ERROR + count * ADDITION_ERROR) * volume->size + count * UNDERFLOW_ERROR;
     return volume->sum > bound ? 1 : volume->sum < -bound ? -1 : UNDECIDED;
@@ -151,16 +158,16 @@ static mt_status decide(volume_job *job)
     }
     bool decided = true;
     for (mt_index i = 0; i < job->components->component_count; i++) {
-        job->signs[i] = sign_of(&job->volumes[i]);
+        job->signs[i] = sign_of(&job->volumes[i], job->how);
         decided = decided && job->signs[i] != UNDECIDED;
     }
     return decided ? MT_OK : decide_exactly(job);
 }
 
 mt_status mt_component_volume_signs(mt_context *context, const mt_mesh *mesh, const mt_components *components,
-                                    int8_t *signs)
+                                    mt_arithmetic how, int8_t *signs)
 {
-    volume_job job = {.context = context, .mesh = mesh, .components = components, .signs = signs};
+    volume_job job = {.context = context, .mesh = mesh, .components = components, .how = how, .signs = signs};
     job.volumes = mt_allocate_array_zeroed(context, components->component_count, sizeof *job.volumes);
     mt_status status = job.volumes ? decide(&job) : MT_ERROR_OUT_OF_MEMORY;
     mt_free(context, job.volumes);

@@ -99,7 +99,8 @@ static void find_genus(mt_manifold_report *report)
 static mt_status find_self_intersections(manifold_check *check)
 {
     mt_manifold_report *report = check->report;
-    mt_status status = mt_find_self_intersections(check->context, check->mesh, NULL, &check->intersections);
+    const mt_self_intersection_options how = {.arithmetic = check->arithmetic};
+    mt_status status = mt_find_self_intersections(check->context, check->mesh, &how, &check->intersections);
     if (status == MT_OK) {
         report->has_self_intersections = true;
         report->defect_counts[MT_DEFECT_SELF_INTERSECTION] = (mt_index)check->intersections.pair_count;
@@ -170,9 +171,10 @@ mt_status mt_check_manifold(mt_context *context, const mt_mesh *mesh, const mt_m
                                    .triangle_count = count_triangles(mesh),
                                    .boundary_loop_count = MT_NONE};
     int part = mt_part_begin(context, "manifold check", "every count of the report");
-    manifold_check check = {.context = context, .mesh = mesh, .report = report};
     static const mt_manifold_options defaults = {0};
-    mt_status status = run_check(&check, options ? options : &defaults);
+    options = options ? options : &defaults;
+    manifold_check check = {.context = context, .mesh = mesh, .arithmetic = options->arithmetic, .report = report};
+    mt_status status = run_check(&check, options);
     release_check(&check);
     if (status != MT_OK) {
         mt_manifold_report_release(context, report);

@@ -25,6 +25,7 @@ typedef struct duplicate_face {
 typedef struct manifold_check {
     mt_context *context;
     const mt_mesh *mesh;
+    mt_arithmetic arithmetic;
     mt_manifold_report *report;
     mt_edge_pairs *pairs;
     mt_vertex_fans *fans;

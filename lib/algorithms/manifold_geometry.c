@@ -30,6 +30,7 @@ typedef struct measurement {
     double scale;
     mt_vec3 origin; /* scaled */
     bool faces_are_triangles;
+    bool tests_along; /* triangles that the sums' own products cannot tell from flat ones are tested there and then */
     block_sums *blocks;
 } measurement;
 
@@ -55,16 +56,29 @@ static bool all_finite(const manifold_check *check, const mt_index *vertices, mt
     return true;
 }
 
-/* Whether all vertices of a face lie on one line: all on the line through the first and one that differs from it. */
-static bool face_is_collinear(const mt_mesh *mesh, const mt_index *vertices, mt_index sides)
+static bool points_are_collinear(mt_arithmetic how, mt_vec3 a, mt_vec3 b, mt_vec3 p)
 {
+    mt_vec3 ab = mt_vec3_subtract(b, a), ap = mt_vec3_subtract(p, a);
+    if (how == MT_ARITHMETIC_EXACT) {
+        return mt_collinear_exact(a, b, p);
+    }
+    if (how == MT_ARITHMETIC_FLOATING) {
+        return ab.x * ap.y == ab.y * ap.x && ab.y * ap.z == ab.z * ap.y && ab.z * ap.x == ab.x * ap.z;
+    }
+    return !is_surely_not_collinear(ab, ap) && mt_collinear(a, b, p);
+}
+
+/* Whether all vertices of a face lie on one line: all on the line through the first and one that differs from it. */
+static bool face_is_collinear(const manifold_check *check, const mt_index *vertices, mt_index sides)
+{
+    const mt_mesh *mesh = check->mesh;
     mt_vec3 a = mt_mesh_position(mesh, vertices[0]);
     mt_vec3 b = a;
     for (mt_index i = 1; i < sides; i++) {
         mt_vec3 p = mt_mesh_position(mesh, vertices[i]);
         if (b.x == a.x && b.y == a.y && b.z == a.z) {
             b = p;
-        } else if (is_surely_not_collinear(mt_vec3_subtract(b, a), mt_vec3_subtract(p, a)) || !mt_collinear(a, b, p)) {
+        } else if (!points_are_collinear(check->arithmetic, a, b, p)) {
             return false;
         }
     }
@@ -78,7 +92,7 @@ static void test_face(const measurement *job, mt_index face, block_sums *sums)
     mt_index sides = mt_mesh_face_sides(check->mesh, face);
     bool counts = !(check->face_flags[face] & FACE_DEGENERATE) &&
                   (!check->vertex_is_non_finite || all_finite(check, vertices, sides));
-    if (counts && face_is_collinear(check->mesh, vertices, sides)) {
+    if (counts && face_is_collinear(check, vertices, sides)) {
         check->face_flags[face] |= FACE_ZERO_AREA;
         sums->zero_area_count++;
     }
@@ -97,7 +111,7 @@ static inline void measure_triangle(const measurement *job, mt_index triangle, c
     mt_vec3 ac = mt_vec3_subtract(scaled_position(job, vertex[2]), a);
     mt_vec3 cross = mt_vec3_cross(ab, ac);
     add_term(&sums->total, (double2){mt_vec3_length(cross), mt_vec3_dot(mt_vec3_subtract(a, job->origin), cross)});
-    if (job->faces_are_triangles && !is_surely_not_collinear(ab, ac)) {
+    if (job->tests_along && !is_surely_not_collinear(ab, ac)) {
         test_face(job, triangle, sums);
     }
 }
@@ -152,7 +166,7 @@ static inline void measure_two(const measurement *job, mt_index first, bool plai
         two.corner[i] = (vector2){{p.x, q.x}, {p.y, q.y}, {p.z, q.z}};
     }
     bool sure = add_two_triangles(&two, job->origin, &sums->total);
-    if (job->faces_are_triangles && !sure) {
+    if (job->tests_along && !sure) {
         test_face(job, first, sums);
         test_face(job, first + 1, sums);
     }
@@ -249,6 +263,7 @@ static mt_status measure(manifold_check *check, const mt_triangulation *triangul
     measurement job = {.check = check,
                        .triangulation = triangulation,
                        .faces_are_triangles = !mesh->face_offsets && mesh->face_size == 3};
+    job.tests_along = job.faces_are_triangles && check->arithmetic == MT_ARITHMETIC_ADAPTIVE;
     choose_frame(&job);
     uint64_t triangle_blocks = block_count_of(triangulation->triangle_count);
     uint64_t face_blocks = block_count_of(mesh->face_count);
@@ -259,7 +274,7 @@ static mt_status measure(manifold_check *check, const mt_triangulation *triangul
     }
     mt_parallel_for(check->context, triangulation->triangle_count, MANIFOLD_GRAIN, measure_block, &job);
     sum_blocks(&job, triangle_blocks);
-    if (!job.faces_are_triangles) {
+    if (!job.tests_along) {
         mt_parallel_for(check->context, mesh->face_count, MANIFOLD_GRAIN, test_block, &job);
     }
     count_zero_area(&job, face_blocks);

@@ -18,8 +18,9 @@ static bool volume_is_clear(const manifold_check *check)
     const mt_mesh *mesh = check->mesh;
     double extent = mt_vec3_max_abs(mt_vec3_subtract(check->maximum, check->minimum));
     bool triangles = !mesh->face_offsets && mesh->face_size == 3;
-    return triangles && report->component_count == 1 && report->has_volume && !check->vertex_is_non_finite &&
-           isfinite(report->area) && fabs(report->volume) > CLEAR_VOLUME * report->area * extent;
+    return check->arithmetic == MT_ARITHMETIC_ADAPTIVE && triangles && report->component_count == 1 &&
+           report->has_volume && !check->vertex_is_non_finite && isfinite(report->area) &&
+           fabs(report->volume) > CLEAR_VOLUME * report->area * extent;
 }
 
 static mt_status keep_faces(manifold_check *check, const mt_index *faces, mt_index count)
@@ -51,7 +52,7 @@ static void clear_open(const manifold_check *check, const mt_components *compone
 
 static mt_status find_in(manifold_check *check, const mt_components *components, int8_t *signs, mt_index *faces)
 {
-    mt_status status = mt_component_volume_signs(check->context, check->mesh, components, signs);
+    mt_status status = mt_component_volume_signs(check->context, check->mesh, components, check->arithmetic, signs);
     if (status != MT_OK) {
         return status;
     }

@@ -115,7 +115,8 @@ static mt_status orient(orient_job *job, mt_repair_result *result)
     uint8_t *turn = mt_allocate(state->context, state->mesh->face_count);
     mt_status status = job->facts && job->volume_signs && turn ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
     if (status == MT_OK) {
-        status = mt_component_volume_signs(state->context, state->mesh, job->components, job->volume_signs);
+        status = mt_component_volume_signs(state->context, state->mesh, job->components, MT_ARITHMETIC_ADAPTIVE,
+                                           job->volume_signs);
     }
     if (status == MT_OK) {
         look_at_edges(job);

@@ -169,3 +169,10 @@ bool mt_collinear(mt_vec3 a, mt_vec3 b, mt_vec3 c)
            mt_orient2d((const double[]){a.y, a.z}, (const double[]){b.y, b.z}, (const double[]){c.y, c.z}) == 0 &&
            mt_orient2d((const double[]){a.z, a.x}, (const double[]){b.z, b.x}, (const double[]){c.z, c.x}) == 0;
 }
+
+bool mt_collinear_exact(mt_vec3 a, mt_vec3 b, mt_vec3 c)
+{
+    return mt_orient2d_exact((const double[]){a.x, a.y}, (const double[]){b.x, b.y}, (const double[]){c.x, c.y}) == 0 &&
+           mt_orient2d_exact((const double[]){a.y, a.z}, (const double[]){b.y, b.z}, (const double[]){c.y, c.z}) == 0 &&
+           mt_orient2d_exact((const double[]){a.z, a.x}, (const double[]){b.z, b.x}, (const double[]){c.z, c.x}) == 0;
+}

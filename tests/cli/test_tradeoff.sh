@@ -24,16 +24,31 @@ holds "nothing differs" test "$(grep -o '"differing_pixels": 0.0' <<<"$out" | wc
 printf 'OFF\n6 2 0\n0 0 0\n0.33 0.21 0.27\n0.01 0.1 0.02\n0.04 0.4 0.08\n0.3 -0.09 0.21\n0.4 -0.12 0.28
 3 0 1 2\n3 3 4 5\n' >"$folder/two.off"
 run 0 tradeoff "$folder/two.off" --budget 0 --knob arithmetic
-prints "floating: 0 pairs are missed and 1 made up, of 0"
-prints "adaptive: nothing on this mesh: 0 pairs, all right"
-prints "exact: nothing on this mesh: 0 pairs, all right"
+prints "floating: missed and made up: 0 and 1 pairs, 0 and 0 flat faces, 0 and 0 inside-out parts"
+prints "adaptive: nothing on this mesh: 0 pairs, 0 flat faces, all right"
+prints "exact: nothing on this mesh: 0 pairs, 0 flat faces, all right"
+# A face so small that products vanish is flat to doubles alone, one whose corners are rounded onto a line is not; and a
+# flat tetrahedron has its inside out.
+printf 'OFF\n7 3 0\n0 0 0\n1e-200 0 0\n0 1e-200 0\n0.1 0.2 0.3\n0.3 0.6 0.9\n0.7 1.4 2.1\n0.2 0.4 0.6
+3 0 1 2\n3 3 4 5\n3 3 6 5\n' >"$folder/flat.off"
+run 0 tradeoff "$folder/flat.off" --budget 0 --knob arithmetic
+prints "floating: missed and made up: 0 and 0 pairs, 1 and 1 flat faces, 0 and 0 inside-out parts"
+prints "adaptive: nothing on this mesh: 0 pairs, 1 flat faces, all right"
+prints "exact: nothing on this mesh: 0 pairs, 1 flat faces, all right"
+printf 'OFF\n4 4 0\n-5.4 -1.6 1.6\n-12.3 0.8 7.2\n-10.5 2 7.2\n-7.5 0 4\n3 0 2 1\n3 1 2 3\n3 0 3 2\n3 0 1 3
+' >"$folder/thin.off"
+run 0 tradeoff "$folder/thin.off" --budget 0 --knob arithmetic
+prints "floating: missed and made up: 0 and 2 pairs, 0 and 0 flat faces, 0 and 1 inside-out parts"
+prints "adaptive: nothing on this mesh: 0 pairs, 0 flat faces, all right"
+prints "exact: nothing on this mesh: 0 pairs, 0 flat faces, all right"
 # Of two crossing squares, n-gons each, one pair; of many faces a sample is judged.
 printf 'OFF\n8 2 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 -1 -1\n1 3 -1\n1 3 1\n1 -1 1\n4 0 1 2 3\n4 4 5 6 7\n' >"$folder/cross.off"
 run 0 tradeoff "$folder/cross.off" --budget 0 --knob arithmetic
-prints "floating: nothing on this mesh: 1 pairs, all right"
+prints "floating: nothing on this mesh: 1 pairs, 0 flat faces, all right"
 "$meshtool" generate torus -o "$folder/many.ply" --resolution 150
 run 0 tradeoff "$folder/many.ply" --budget 0 --knob arithmetic
-prints " of 11250 faces that are judged, all right"
+prints "all right; pairs are judged with "
+prints " of 11250 faces"
 
 # Plots: SVG that ends, PNG by its content; nothing new after a failure.
 run 0 tradeoff "$folder/torus.ply" --budget 0 --knob samples --plot "$folder/plot.svg" -q

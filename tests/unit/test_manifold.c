@@ -406,13 +406,14 @@ static void an_isolated_vertex_far_away_costs_nothing(void **state)
     test_context_end(context);
 }
 
-static mt_index count_zero_area(const double positions[9])
+static mt_index count_zero_area(const double positions[9], mt_arithmetic how)
 {
     static const mt_index faces[] = {3, 0, 1, 2};
     mt_context *context = test_context();
     mt_mesh *mesh = test_mesh(context, 3, positions, 1, faces);
     mt_manifold_report report;
-    assert_int_equal(mt_check_manifold(context, mesh, NULL, &report), MT_OK);
+    const mt_manifold_options options = {.arithmetic = how};
+    assert_int_equal(mt_check_manifold(context, mesh, &options, &report), MT_OK);
     mt_index count = report.defect_counts[MT_DEFECT_ZERO_AREA_FACE];
     mt_manifold_report_release(context, &report);
     mt_mesh_destroy(context, mesh);
@@ -423,17 +424,26 @@ static mt_index count_zero_area(const double positions[9])
 static void zero_area_is_decided_exactly(void **state)
 {
     (void)state;
-    double next = nextafter(0.3, 1);
-    assert_int_equal(count_zero_area((double[]){0, 0, 0, 0.1, 0.1, 0.1, 0.3, 0.3, 0.3}), 1);
-    assert_int_equal(count_zero_area((double[]){0, 0, 0, 0.1, 0.1, 0.1, 0.3, 0.3, next}), 0);
-    assert_int_equal(count_zero_area((double[]){1e7, 0, 0, 1e7 + 1, 1, 1, 1e7 + 3, 3, 3}), 1);
-    assert_int_equal(count_zero_area((double[]){0, 0, 0, 1e-200, 0, 0, 0, 1e-200, 0}), 0);
-    assert_int_equal(count_zero_area((double[]){0, 0, 0, 5e-324, 0, 0, 0, 5e-324, 0}), 0);
-    assert_int_equal(count_zero_area((double[]){0, 0, 0, 5e-324, 0, 0, 1e-323, 0, 0}), 1);
-    assert_int_equal(count_zero_area((double[]){-1e308, 0, 0, 1e308, 0, 0, 1e308, 1e-300, 0}), 0);
-    assert_int_equal(count_zero_area((double[]){-1e308, -1e308, 0, 1e308, 1e308, 0, 1, 1, 0}), 1);
-    assert_int_equal(count_zero_area((double[]){2, 2, 2, 2, 2, 2, 2, 2, 2}), 1);
-    assert_int_equal(count_zero_area((double[]){0, 0, 0, 1, 1, 1, NAN, 2, 2}), 0);
+    const double next = nextafter(0.3, 1);
+    const struct {
+        double positions[9];
+        mt_index is_flat;
+    } cases[] = {{{0, 0, 0, 0.1, 0.1, 0.1, 0.3, 0.3, 0.3}, 1},
+                 {{0, 0, 0, 0.1, 0.1, 0.1, 0.3, 0.3, next}, 0},
+                 {{1e7, 0, 0, 1e7 + 1, 1, 1, 1e7 + 3, 3, 3}, 1},
+                 {{0, 0, 0, 1e-200, 0, 0, 0, 1e-200, 0}, 0},
+                 {{0, 0, 0, 5e-324, 0, 0, 0, 5e-324, 0}, 0},
+                 {{0, 0, 0, 5e-324, 0, 0, 1e-323, 0, 0}, 1},
+                 {{-1e308, 0, 0, 1e308, 0, 0, 1e308, 1e-300, 0}, 0},
+                 {{-1e308, -1e308, 0, 1e308, 1e308, 0, 1, 1, 0}, 1},
+                 {{2, 2, 2, 2, 2, 2, 2, 2, 2}, 1},
+                 {{0, 0, 0, 1, 1, 1, NAN, 2, 2}, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_int_equal(count_zero_area(cases[i].positions, MT_ARITHMETIC_ADAPTIVE), cases[i].is_flat);
+        assert_int_equal(count_zero_area(cases[i].positions, MT_ARITHMETIC_EXACT), cases[i].is_flat);
+    }
+    /* products that underflow are equal */
+    assert_int_equal(count_zero_area(cases[3].positions, MT_ARITHMETIC_FLOATING), 1);
 }
 
 static uint64_t hash_report(unsigned threads, bool shuffled)
@@ -590,6 +600,60 @@ static void the_welded_mesh_is_told_beside(void **state)
     assert_true(joined > 100 && differing > 10);
 }
 
+static void expect_same_lists(const mt_manifold_report *a, const mt_manifold_report *b)
+{
+    assert_memory_equal(a->defect_counts, b->defect_counts, sizeof a->defect_counts);
+    assert_int_equal(a->defect_list_count, b->defect_list_count);
+    for (size_t i = 0; i < a->defect_list_count; i++) {
+        assert_int_equal(a->defects[i].kind, b->defects[i].kind);
+        assert_true(same_element(&a->defects[i], &b->defects[i]));
+    }
+}
+
+/* Coordinates of many bits, so that doubles alone err; in halves of the meshes all faces lie on a slanted line. */
+static void place_badly(mt_mesh *mesh, bool on_a_line)
+{
+    double *p = mesh->positions;
+    for (mt_index i = 0; i < mesh->vertex_count; i++, p += 3) {
+        p[0] = p[0] / 3 + 0.1;
+        p[1] = on_a_line ? p[0] / 3 : p[1] / 7;
+        p[2] = on_a_line ? p[0] * 7 : p[2] / 5;
+    }
+}
+
+/* Exact throughout says the same as with the filter; doubles as they come do not. */
+static void arithmetics_differ_in_doubles_alone(void **state)
+{
+    (void)state;
+    test_random random = {1933};
+    int wrong_faces = 0, wrong_pairs = 0, wrong_sides = 0;
+    for (int i = 0; i < 900; i++) {
+        mt_context *context = test_context();
+        mt_mesh *mesh = i % 3 ? test_soup(context, &random) : test_patch(context, &random);
+        place_badly(mesh, i % 2 == 0);
+        mt_manifold_report reports[3];
+        for (unsigned how = 0; how < 3; how++) {
+            mt_manifold_options options = {.defects_per_kind = UINT64_MAX,
+                                           .self_intersections = true,
+                                           .inside_out = true,
+                                           .arithmetic = (mt_arithmetic)how};
+            assert_int_equal(mt_check_manifold(context, mesh, &options, &reports[how]), MT_OK);
+        }
+        expect_same_lists(&reports[MT_ARITHMETIC_ADAPTIVE], &reports[MT_ARITHMETIC_EXACT]);
+        const mt_index *right = reports[MT_ARITHMETIC_EXACT].defect_counts;
+        const mt_index *floating = reports[MT_ARITHMETIC_FLOATING].defect_counts;
+        wrong_faces += floating[MT_DEFECT_ZERO_AREA_FACE] != right[MT_DEFECT_ZERO_AREA_FACE];
+        wrong_pairs += floating[MT_DEFECT_SELF_INTERSECTION] != right[MT_DEFECT_SELF_INTERSECTION];
+        wrong_sides += floating[MT_DEFECT_INSIDE_OUT_COMPONENT] != right[MT_DEFECT_INSIDE_OUT_COMPONENT];
+        for (unsigned how = 0; how < 3; how++) {
+            mt_manifold_report_release(context, &reports[how]);
+        }
+        mt_mesh_destroy(context, mesh);
+        test_context_end(context);
+    }
+    assert_true(wrong_faces > 0 && wrong_pairs > 0 && wrong_sides > 0);
+}
+
 static void every_failed_allocation_is_clean(void **state)
 {
     (void)state;
@@ -630,6 +694,7 @@ int main(void)
         cmocka_unit_test(extremes_are_fast),
         cmocka_unit_test(self_intersections_are_listed_when_asked_for),
         cmocka_unit_test(the_welded_mesh_is_told_beside),
+        cmocka_unit_test(arithmetics_differ_in_doubles_alone),
         cmocka_unit_test(every_failed_allocation_is_clean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

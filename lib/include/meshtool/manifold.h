@@ -3,7 +3,7 @@
 #ifndef MESHTOOL_MANIFOLD_H
 #define MESHTOOL_MANIFOLD_H
 
-#include <meshtool/mesh.h>
+#include <meshtool/self_intersection.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -49,6 +49,7 @@ typedef struct mt_manifold_options {
     bool self_intersections;   /* search for them; many times the cost of all the rest */
     bool inside_out;           /* look for components that are */
     bool as_welded;            /* look beside it at the mesh welded; the mesh itself stays as it is */
+    mt_arithmetic arithmetic;  /* of zero-area faces, self-intersections and inside-out components; to measure by */
 } mt_manifold_options;
 
 /* A mesh after vertices at bit-equal positions (weld.h) became one. */

@@ -56,8 +56,9 @@ static inline int mt_orient3d(mt_vec3 a, mt_vec3 b, mt_vec3 c, mt_vec3 d)
     return mt_orient3d_exact(a, b, c, d);
 }
 
-/* Whether three points in space lie exactly on one line (coincident ones do). */
+/* Whether three points in space lie exactly on one line (coincident ones do). The second: without the filter. */
 bool mt_collinear(mt_vec3 a, mt_vec3 b, mt_vec3 c);
+bool mt_collinear_exact(mt_vec3 a, mt_vec3 b, mt_vec3 c);
 
 /* The sign of the volume that triangles, three corners each, enclose: of the sum of their tetrahedra with the origin,
  * which where they form a closed surface is the same about any point. Exact and without a filter: some microseconds a
