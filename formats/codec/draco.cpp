@@ -254,7 +254,8 @@ mt_draco_result decode(const void *bytes, size_t size, guard *g, mt_draco_mesh *
         return MT_DRACO_WRONG;
     }
     if (consumed) {
-        *consumed = static_cast<size_t>(buffer.decoded_size());
+        // What is left, not what was decoded: the edgebreaker decoder starts the buffer anew behind the connectivity.
+        *consumed = size - static_cast<size_t>(buffer.remaining_size());
     }
     *out = holder.release();
     return MT_DRACO_OK;

@@ -83,6 +83,11 @@ static bool holds_attribute(const mt_mesh *mesh, const mt_attribute *attribute, 
            attribute == mt_obj_written_attribute(mesh, attribute->semantic);
 }
 
+static bool holds_labels(const mt_mesh *mesh, const mt_labels *labels)
+{
+    return labels->kind <= MT_LABEL_SMOOTHING || labels == mt_obj_written_labels(mesh, MT_LABEL_OBJECT);
+}
+
 const mt_mesh_format mt_obj_format = {
     .name = "obj",
     .title = "Wavefront OBJ",
@@ -92,6 +97,7 @@ const mt_mesh_format mt_obj_format = {
                  MT_HOLDS_VERTEX_COLORS | MT_HOLDS_GROUPS | MT_HOLDS_LIBRARIES | MT_HOLDS_CREASES | MT_HOLDS_F64,
     .has_ascii = true,
     .holds_attribute = holds_attribute,
+    .holds_labels = holds_labels,
     .sniff = sniff_obj,
     .read = mt_obj_read,
     .write = mt_obj_write,

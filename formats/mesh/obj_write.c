@@ -84,6 +84,12 @@ static void put_name(mt_lines *lines, const char *keyword, const char *name)
     lines->size = (size_t)(at - lines->bytes);
 }
 
+/* "" without a label: what has no name is written as what has none. */
+static const char *name_of(const mt_labels *labels, mt_index label)
+{
+    return label == MT_NONE ? "" : labels->names[label];
+}
+
 /* The names that hold from this face on, where they are not those of the face before. */
 static void put_labels(const obj_writer *writer, mt_lines *lines, mt_index face)
 {
@@ -92,9 +98,10 @@ static void put_labels(const obj_writer *writer, mt_lines *lines, mt_index face)
         const mt_labels *labels = writer->labels[kind];
         mt_index before = labels && face > 0 ? labels->face_labels[face - 1] : MT_NONE;
         mt_index now = labels ? labels->face_labels[face] : MT_NONE;
-        if (now != before) {
-            bool smoothing_ends = kind == MT_LABEL_SMOOTHING && now == MT_NONE;
-            put_name(lines, keywords[kind], smoothing_ends ? "off" : now == MT_NONE ? "" : labels->names[now]);
+        const char *name = name_of(labels, now);
+        if (now != before && (*name || *name_of(labels, before))) {
+            bool smoothing_ends = kind == MT_LABEL_SMOOTHING && !*name;
+            put_name(lines, keywords[kind], smoothing_ends ? "off" : name);
         }
     }
 }
@@ -268,6 +275,16 @@ const mt_attribute *mt_obj_written_attribute(const mt_mesh *mesh, mt_semantic se
     return attribute ? attribute : mt_mesh_find_attribute(mesh, semantic, MT_DOMAIN_VERTEX);
 }
 
+const mt_labels *mt_obj_written_labels(const mt_mesh *mesh, mt_label_kind kind)
+{
+    const mt_labels *labels = mt_mesh_find_labels(mesh, kind);
+    if (!labels && kind == MT_LABEL_OBJECT) {
+        labels = mt_mesh_find_labels(mesh, MT_LABEL_PART);
+        labels = labels ? labels : mt_mesh_find_labels(mesh, MT_LABEL_SOLID);
+    }
+    return labels;
+}
+
 mt_status mt_obj_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options,
                        mt_output *output)
 {
@@ -278,7 +295,7 @@ mt_status mt_obj_write(mt_context *context, const mt_mesh *mesh, const mt_mesh_w
                          .uv = mt_obj_written_attribute(mesh, MT_SEMANTIC_UV),
                          .normal = mt_obj_written_attribute(mesh, MT_SEMANTIC_NORMAL)};
     for (int kind = 0; kind < LABEL_KINDS; kind++) {
-        writer.labels[kind] = mt_mesh_find_labels(mesh, (mt_label_kind)kind);
+        writer.labels[kind] = mt_obj_written_labels(mesh, (mt_label_kind)kind);
     }
     const struct {
         uint64_t count;
