@@ -33,10 +33,47 @@ static int sniff_gltf(const uint8_t *bytes, size_t size, uint64_t total)
     return contains(bytes, size, "\"asset\"") ? 90 : 20;
 }
 
+/* Whether a material is more than its name. */
+static bool has_look(const mt_gltf_file *file)
+{
+    for (size_t i = 0; i < file->counts[MT_GLTF_MATERIALS]; i++) {
+        mt_json_node material = mt_json_element(&file->lists[MT_GLTF_MATERIALS], i);
+        const char *key;
+        json_t *value;
+        json_object_foreach(material.value, key, value)
+        {
+            if (strcmp(key, "name") != 0 && strcmp(key, "extras") != 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static void warn_of_nodes(const mt_gltf_file *file)
+{
+    const char *name = mt_input_name(file->input);
+    if (file->has_both) {
+        mt_warn(file->context, "%s: a node has a matrix beside a translation, rotation or scale; the matrix is taken",
+                name);
+    }
+    if (file->unplaced > 0) {
+        mt_warn(file->context, "%s: primitives without a POSITION, left out: %llu", name,
+                (unsigned long long)file->unplaced);
+    }
+    if (json_array_size(json_object_get(file->root.value, "animations")) > 0) {
+        mt_warn(file->context, "%s: animations are not kept; the mesh stands as its nodes do", name);
+    }
+}
+
 /* What the file holds and the mesh does not. */
 static void warn_of_the_rest(const mt_gltf_file *file)
 {
     const char *name = mt_input_name(file->input);
+    warn_of_nodes(file);
+    if (has_look(file)) {
+        mt_warn(file->context, "%s: of materials only the names are kept, not their colours and textures", name);
+    }
     for (size_t i = 0; i < file->dropped_count; i++) {
         mt_warn(file->context, "%s: the attribute \"%.64s\" is not kept", name, file->dropped[i]);
     }

@@ -45,7 +45,9 @@ typedef struct mt_gltf_file {
     uint64_t decoded;                     /* indices of primitives so far */
     const char *dropped[MT_GLTF_DROPPED]; /* names of attributes that are not kept, once each */
     size_t dropped_count;
+    uint64_t unplaced;           /* primitives without positions */
     bool has_targets, has_skins; /* met on the way */
+    bool has_both;               /* a node with a matrix and a part of one */
 } mt_gltf_file;
 
 /* Reads the whole input, parses it, and checks version and extensions. Close it in any case. */

@@ -63,6 +63,14 @@ static mt_status read_beside(mt_gltf_file *file, const mt_json_node *node, mt_in
     return mt_input_read_exactly(file->context, input, bytes, (size_t)length, "the rest of the buffer");
 }
 
+/* Where a file beside is named, before what was wrong with it. */
+static mt_status say_who_asked(mt_gltf_file *file, const mt_json_node *node, mt_status status)
+{
+    mt_error error = *mt_context_error(file->context);
+    mt_context_clear_error(file->context);
+    return mt_json_fail(file->context, node, status, "%s", error.message);
+}
+
 static mt_status load_beside(mt_gltf_file *file, const mt_json_node *node, const char *uri, uint64_t length,
                              mt_gltf_span *out)
 {
@@ -85,8 +93,9 @@ static mt_status load_beside(mt_gltf_file *file, const mt_json_node *node, const
     if (status == MT_OK) {
         status = read_beside(file, node, input, length, out);
         mt_input_close(file->context, input);
+        return status;
     }
-    return status;
+    return status == MT_ERROR_OUT_OF_MEMORY ? status : say_who_asked(file, node, status);
 }
 
 static mt_status load_uri(mt_gltf_file *file, const mt_json_node *node, const char *uri, uint64_t length,

@@ -46,6 +46,8 @@ mt_status mt_gltf_node_transform(mt_gltf_file *file, const mt_json_node *node, m
     double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     *out = mt_transform_identity();
     if (json_object_get(node->value, "matrix")) {
+        file->has_both = file->has_both || json_object_get(node->value, "translation") ||
+                         json_object_get(node->value, "rotation") || json_object_get(node->value, "scale");
         return take_matrix(file, node, out);
     }
     mt_status status = mt_json_numbers(file->context, node, "translation", MT_JSON_OPTIONAL, 3, t);
@@ -155,8 +157,8 @@ static mt_status mark_roots(mt_gltf_file *file, forest *f)
         return status;
     }
     if (file->counts[MT_GLTF_SCENES] > 1) {
-        mt_warn(file->context, "%s: scene number %zu of %zu is read", mt_input_name(file->input), index,
-                file->counts[MT_GLTF_SCENES]);
+        mt_warn(file->context, "%s: of %zu scenes only scenes[%zu] is read", mt_input_name(file->input),
+                file->counts[MT_GLTF_SCENES], index);
     }
     status = mt_json_array(file->context, &scene, "nodes", MT_JSON_OPTIONAL, &list, &count);
     for (size_t i = 0; i < count && status == MT_OK; i++) {

@@ -188,6 +188,7 @@ static mt_status read_primitive(mt_gltf_file *file, const mt_json_node *primitiv
             mt_gltf_refer(file, &attributes, "POSITION", MT_JSON_OPTIONAL, MT_GLTF_ACCESSORS, &positions, &accessor);
     }
     if (status != MT_OK || !positions.value) {
+        file->unplaced += status == MT_OK;
         return status;
     }
     file->has_targets = file->has_targets || json_object_get(primitive->value, "targets");

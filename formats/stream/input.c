@@ -16,6 +16,7 @@ struct mt_input {
     char *name;
     int file;              /* -1 for memory */
     bool owns_file;        /* false for standard input */
+    bool has_folder;       /* the name is a path that was opened */
     bool positioned;       /* pread works */
     uint64_t base;         /* where in the file byte 0 lies: standard input may be half read */
     uint64_t size;         /* UINT64_MAX: unknown */
@@ -106,7 +107,7 @@ static mt_status open_plain(mt_context *context, const char *path, mt_input **ou
         return MT_ERROR_OUT_OF_MEMORY;
     }
     input->file = file;
-    input->owns_file = !standard;
+    input->owns_file = input->has_folder = !standard;
     mt_status status = examine_file(context, input);
     if (status == MT_OK) {
         input->buffer = mt_allocate(context, BUFFER_SIZE);
@@ -153,11 +154,13 @@ static mt_status see_through(mt_context *context, mt_input *source, mt_input **o
         return MT_OK;
     }
     mt_input *input = create_input(context, source->name);
+    bool has_folder = source->has_folder;
     mt_expander *expander = NULL;
     status = mt_expander_create(context, codec, source, &expander);
     if (input && status == MT_OK) {
         input->size = UINT64_MAX;
         input->expander = expander;
+        input->has_folder = has_folder;
         input->buffer = mt_allocate(context, BUFFER_SIZE);
     } else {
         mt_expander_destroy(context, expander);
@@ -197,7 +200,7 @@ const char *mt_input_name(const mt_input *input)
 
 bool mt_input_has_folder(const mt_input *input)
 {
-    return input->file >= 0 && input->owns_file;
+    return input->has_folder;
 }
 
 uint64_t mt_input_size(const mt_input *input)

@@ -97,9 +97,11 @@ mt_status mt_json_fail(mt_context *context, const mt_json_node *node, mt_status 
 /* What stands there, in a few words. */
 static void describe(const json_t *value, char *text, size_t room)
 {
-    static const char *const names[] = {
-        [JSON_OBJECT] = "an object", [JSON_ARRAY] = "an array", [JSON_TRUE] = "true",
-        [JSON_FALSE] = "false",      [JSON_NULL] = "null",      [JSON_STRING] = "a string"};
+    static const char *const names[] = {[JSON_OBJECT] = "an object",
+                                        [JSON_TRUE] = "true",
+                                        [JSON_FALSE] = "false",
+                                        [JSON_NULL] = "null",
+                                        [JSON_STRING] = "a string"};
     char word[64];
     if (json_is_integer(value)) {
         snprintf(text, room, "%lld", (long long)json_integer_value(value));
@@ -108,6 +110,8 @@ static void describe(const json_t *value, char *text, size_t room)
     } else if (json_is_string(value)) {
         print_key(json_string_value(value), word, sizeof word - 24);
         snprintf(text, room, "\"%s\"", word);
+    } else if (json_is_array(value)) {
+        snprintf(text, room, "an array of %zu", json_array_size(value));
     } else {
         snprintf(text, room, "%s", names[json_typeof(value)]);
     }

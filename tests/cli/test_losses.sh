@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # From format to format: what both hold arrives, what is lost is said, and what is not lost is not complained of.
 . tests/cli/lib.sh
+project=$PWD
 cd "$folder" || exit 1
 quiet() { if [ -z "$err" ]; then pass; else fail "stderr should be empty: $*"; fi; }
 
@@ -23,4 +24,28 @@ holds "the names come back" test "$(grep '^[ou]' again.obj | tr '\n' ' ')" = "o 
 sed 's/{"name":"m"}/{}/; s/"name":"a",//g' named.gltf >unnamed.gltf
 run 0 convert unnamed.gltf again.obj
 holds "no line without a name" test "$(grep '^[ou]' again.obj | tr '\n' ' ')" = "o b "
+
+# What a glTF file holds and a mesh does not, and what is missing, with the place that asks for it.
+plain=$project/meshes/malformed/gltf/plain.gltf
+changed() { # CODE SENTENCE EDIT: the plain file, changed by sed
+  sed "$3" "$plain" >changed.gltf
+  run "$1" info changed.gltf
+  says "changed.gltf: $2"
+}
+changed 0 "of materials only the names are kept" 's/"scene":0/"materials":[{"name":"a","alphaMode":"MASK"}],&/'
+changed 0 "animations are not kept" 's/"scene":0/"animations":[{}],&/'
+changed 0 "primitives without a POSITION, left out: 1" 's/"POSITION":0//'
+changed 0 "a node has a matrix beside" 's/{"mesh":0}/{"mesh":0,"scale":[2,2,2],"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}/'
+changed 0 "of 2 scenes only scenes[0] is read" 's/"scenes":\[/&{"nodes":[0]},/'
+changed 3 "nodes[0].matrix: expected an array of 16 numbers, got an array of 3" 's/{"mesh":0}/{"mesh":0,"matrix":[1,0,0]}/'
+changed 4 "buffers[0].uri: none.bin: could not be opened" 's/"data:.*"/"none.bin"/'
+sed 's/"scene":0/"materials":[{"name":"a","extras":1}],&/' "$plain" >changed.gltf
+run 0 info changed.gltf
+quiet "a material that is but a name"
+
+# A compressed file finds those beside it.
+mkdir beside && sed 's/"data:.*"/"buffer.bin"/' "$plain" | gzip >beside/plain.gltf.gz
+sed 's/.*base64,//; s/".*//' "$plain" | base64 -d >beside/buffer.bin
+run 0 info beside/plain.gltf.gz
+quiet "a compressed glTF file with its buffer beside it"
 finish

@@ -280,11 +280,11 @@ static void test_getters_name_the_path(void **state)
     check_said(context, mt_json_numbers(context, &second, "min", MT_JSON_REQUIRED, 3, numbers),
                "a.json: accessors[1].min[1]: expected a number, got \"b\"");
     check_said(context, mt_json_numbers(context, &second, "min", MT_JSON_REQUIRED, 2, numbers),
-               "a.json: accessors[1].min: expected an array of 2 numbers, got an array");
+               "a.json: accessors[1].min: expected an array of 2 numbers, got an array of 3");
     check_said(context, mt_json_boolean(context, &second, "min", MT_JSON_REQUIRED, &boolean),
-               "a.json: accessors[1].min: expected true or false, got an array");
+               "a.json: accessors[1].min: expected true or false, got an array of 3");
     check_said(context, mt_json_object(context, &root, "accessors", MT_JSON_REQUIRED, &other),
-               "a.json: accessors: expected an object, got an array");
+               "a.json: accessors: expected an object, got an array of 2");
     check_said(context, mt_json_array(context, &root, "nodes", MT_JSON_REQUIRED, &other, &count),
                "a.json: nodes: is missing, expected an array");
     check_said(context, mt_json_whole(context, &third, "count", MT_JSON_OPTIONAL, 0, 9, &whole),

@@ -20,12 +20,12 @@ static const struct {
     const char *message;
 } wrong[] = {
     {"!", 1, 1, "the JSON ends here"},
-    {"![]", 1, 1, "the root: expected an object, got an array"},
+    {"![]", 1, 1, "the root: expected an object, got an array of 0"},
     {"!{\"objects\": []}", 1, 1, "camera: is missing, expected an object"},
     {"!{" CAMERA "}", 1, 1, "objects: is missing, expected an array of objects"},
     {"!{" CAMERA ", \"objects\": 5}", 1, 64, "objects: expected an array of objects, got 5"},
     {"!{\"camera\": {\"eye\": [0, 0], \"target\": [0, 0, 0]}, \"objects\": []}", 1, 20,
-     "camera.eye: expected three numbers, got an array"},
+     "camera.eye: expected three numbers, got an array of 2"},
     {"!{\"camera\": {\"eye\": [1, 2, 3], \"target\": [1, 2, 3]}, \"objects\": []}", 1, 12,
      "camera: the eye and the target are the same point"},
     {"!{\"camera\": {\"eye\": [1, 2, 3], \"target\": [0, 0, 0], \"fov\": 180}, \"objects\": []}", 1, 59,
