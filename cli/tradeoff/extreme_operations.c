@@ -151,7 +151,7 @@ static mt_status normals_error(mt_context *context, const mt_mesh *mesh, double 
     double worst = 0;
     if (status == MT_OK) {
         const mt_attribute *normals = mt_mesh_find_attribute(bare, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX);
-        quad_vertex_normals(mesh, sums);
+        quad_vertex_normals(mesh, 1, sums);
         for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex++) {
             mt_index value = mt_attribute_value_index(normals, vertex);
             mt_vec3 n = mt_vec3_make(mt_attribute_get(normals, value, 0), mt_attribute_get(normals, value, 1),

@@ -1,7 +1,7 @@
 /* In which precision positions are stored, for bounds, normals and refinement. All is judged beside what 113 bits make
  * of the positions as they were read, so that what storing takes of them counts. */
 #include "tradeoff/quad_triangle.h"
-#include "tradeoff/reference_surface.h"
+#include "tradeoff/reference_patch.h"
 #include "tradeoff/statistics.h"
 
 #include <meshtool/manifold.h>
@@ -22,7 +22,7 @@ typedef struct storage_state {
     mt_mesh *refined;
     mt_bounds bounds;
     quad3 *normals;
-    reference_surface finer;
+    reference_patch finer;
 } storage_state;
 
 static mt_status refine_reference(mt_context *context, storage_state *s)
@@ -34,13 +34,7 @@ static mt_status refine_reference(mt_context *context, storage_state *s)
     }
     s->can_refine = report.manifold_class != MT_NON_MANIFOLD && report.oriented == MT_YES;
     mt_manifold_report_release(context, &report);
-    reference_surface cage = {0};
-    status = s->can_refine ? reference_surface_make(context, s->mesh, &cage) : MT_OK;
-    if (status == MT_OK && s->can_refine) {
-        status = reference_surface_refine(context, &cage, &s->finer);
-    }
-    reference_surface_release(context, &cage);
-    return status;
+    return s->can_refine ? reference_patch_make(context, s->mesh, &s->finer) : MT_OK;
 }
 
 static mt_status prepare(const tradeoff_subject *subject, void **state, const char **why)
@@ -63,7 +57,7 @@ static mt_status prepare(const tradeoff_subject *subject, void **state, const ch
         status = tradeoff_bare_mesh(context, s->mesh, types[i], &s->stored[i]);
     }
     if (status == MT_OK) {
-        quad_vertex_normals(s->mesh, s->normals);
+        quad_vertex_normals(s->mesh, reference_sample_step(s->mesh), s->normals);
         status = refine_reference(context, s);
     }
     return status;
@@ -75,7 +69,7 @@ static void release(void *state, mt_context *context)
     mt_mesh_destroy(context, s->stored[0]);
     mt_mesh_destroy(context, s->stored[1]);
     mt_free(context, s->normals);
-    reference_surface_release(context, &s->finer);
+    reference_patch_release(context, &s->finer);
     mt_free(context, s);
 }
 
@@ -112,7 +106,7 @@ static mt_status judge_normals(const storage_state *s, size_t level, mt_context 
     if (status == MT_OK) {
         const mt_attribute *normals = mt_mesh_find_attribute(mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX);
         size_t count = 0;
-        for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex++) {
+        for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex += reference_sample_step(s->mesh)) {
             mt_index value = mt_attribute_value_index(normals, vertex);
             mt_vec3 n = mt_vec3_make(mt_attribute_get(normals, value, 0), mt_attribute_get(normals, value, 1),
                                      mt_attribute_get(normals, value, 2));
@@ -126,16 +120,6 @@ static mt_status judge_normals(const storage_state *s, size_t level, mt_context 
     mt_mesh_destroy(context, mesh);
     mt_free(context, errors);
     return status;
-}
-
-static double refined_error(const storage_state *s)
-{
-    double worst = 0;
-    for (mt_index vertex = 0; s->refined && vertex < s->refined->vertex_count; vertex++) {
-        quad3 d = quad3_subtract(quad3_from(mt_mesh_position(s->refined, vertex)), s->finer.positions[vertex]);
-        worst = fmax(worst, (double)quad_sqrt(quad3_dot(d, d)));
-    }
-    return s->refined ? worst / s->diagonal : (double)NAN;
 }
 
 /* How far the bounds are from those of the mesh as it was read, each vertex asked by itself. */
@@ -167,13 +151,20 @@ static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_
     if (status != MT_OK) {
         return status;
     }
-    double refined = refined_error(s);
+    double refined = s->refined ? reference_patch_error(&s->finer, s->mesh, s->refined) / s->diagonal : (double)NAN;
+    mt_index step = reference_sample_step(s->mesh), judged = (s->mesh->vertex_count + step - 1) / step;
     tradeoff_add_statistics(row, names, &normals);
     tradeoff_add_error(row, "refined", refined);
     tradeoff_add_error(row, "bounds", bounds_error(s));
     tradeoff_add_size(row, "position_bytes", (double)s->mesh->vertex_count * 3 * (types[level] == MT_F32 ? 4 : 8));
-    snprintf(row->says, sizeof row->says, "normals up to %.1g degrees off, refined vertices %.1g of the diagonal",
-             normals.maximum, refined);
+    tradeoff_add_size(row, "judged_vertices", judged);
+    int length =
+        snprintf(row->says, sizeof row->says, "normals up to %.1g degrees off, refined vertices %.1g of the diagonal",
+                 normals.maximum, refined);
+    if (step > 1) {
+        snprintf(row->says + length, sizeof row->says - (size_t)length, ", at %lu of %lu vertices that are judged",
+                 (unsigned long)judged, (unsigned long)s->mesh->vertex_count);
+    }
     return MT_OK;
 }
 

@@ -15,8 +15,8 @@
 #define AIMED_MAXIMUM 50000
 #define RANDOM_COUNT 20000
 
-/* Triangles met by oracle rays in all, so that the oracle ends on large meshes too. */
-#define ORACLE_WORK 200000000U
+/* Boxes and triangles that oracle rays look at in all, so that the oracle ends on any mesh. */
+#define ORACLE_WORK 100000000U
 #define ORACLE_RAYS 4000
 
 /* A ray at a place counts when its triangles turn to it by more than this cosine. */
@@ -41,6 +41,7 @@ typedef struct test_state {
     mt_triangulation triangulation;
     mt_surface_tree *tree;
     rays groups[GROUP_COUNT];
+    triangle_blocks blocks;   /* while the oracle is asked */
     size_t oracle_count;      /* of the random rays */
     double *oracle_distances; /* INFINITY: nothing is hit */
     mt_ray_profile profile;
@@ -185,32 +186,49 @@ static void aim_at_random(test_state *s)
     }
 }
 
+/* An oracle's ray, and how far it gets. */
+typedef struct sight {
+    const test_state *state;
+    const mt_ray *ray;
+    double margin, nearest;
+} sight;
+
+static bool may_be_met(const void *user, const triangle_box *box)
+{
+    const sight *seen = user;
+    return triangle_box_may_meet(box, seen->ray, seen->margin);
+}
+
+static void meet(void *user, mt_index triangle)
+{
+    sight *seen = user;
+    mt_vec3 p[3];
+    corners_of(seen->state, triangle, p);
+    seen->nearest = fmin(seen->nearest, quad_meet_triangle(p, seen->ray, seen->margin));
+}
+
 static void meet_all(void *user, uint64_t begin, uint64_t end)
 {
+    static const triangle_query query = {may_be_met, meet};
     test_state *s = user;
-    double margin = 1e-9 * s->subject->diagonal;
     for (uint64_t i = begin; i < end; i++) {
-        const mt_ray *ray = &s->groups[AT_RANDOM].rays[i];
-        double best = INFINITY;
-        for (mt_index triangle = 0; triangle < s->triangulation.triangle_count; triangle++) {
-            mt_vec3 p[3];
-            corners_of(s, triangle, p);
-            best = fmin(best, quad_meet_triangle(p, ray, margin));
-        }
-        s->oracle_distances[i] = best;
+        sight seen = {s, &s->groups[AT_RANDOM].rays[i], 1e-9 * s->subject->diagonal, INFINITY};
+        triangle_blocks_visit(&s->blocks, &query, &seen);
+        s->oracle_distances[i] = seen.nearest;
     }
 }
 
 static mt_status ask_oracle(test_state *s, mt_context *context)
 {
-    size_t count = ORACLE_WORK / (s->triangulation.triangle_count + 1) + 1;
-    s->oracle_count = count < ORACLE_RAYS ? count : ORACLE_RAYS;
-    s->oracle_distances = mt_allocate_array(context, s->oracle_count, sizeof(double));
-    if (!s->oracle_distances) {
-        return MT_ERROR_OUT_OF_MEMORY;
+    s->oracle_distances = mt_allocate_array(context, ORACLE_RAYS, sizeof(double));
+    mt_status status = s->oracle_distances
+                           ? triangle_blocks_make(context, s->subject->mesh, &s->triangulation, &s->blocks)
+                           : MT_ERROR_OUT_OF_MEMORY;
+    if (status == MT_OK) {
+        s->oracle_count = triangle_blocks_ask(context, &s->blocks, ORACLE_RAYS, ORACLE_WORK, meet_all, s);
     }
-    mt_parallel_for(context, s->oracle_count, 16, meet_all, s);
-    return MT_OK;
+    triangle_blocks_release(context, &s->blocks);
+    return status;
 }
 
 static mt_status prepare(const tradeoff_subject *subject, void **state, const char **why)

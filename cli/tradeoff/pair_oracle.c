@@ -1,24 +1,20 @@
 #include "tradeoff/pair_oracle.h"
 
 #include "tradeoff/integer_triangle.h"
-
-#include <meshtool/triangulate.h>
+#include "tradeoff/triangle_blocks.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Boxes compared, and pairs decided, in all. */
-#define BOX_WORK 200000000U
-#define PAIR_WORK 200000U
-
-typedef struct box {
-    double low[3], high[3];
-} box;
+/* Faces of the sample, boxes and triangles that are looked at for candidates, and pairs decided, all at most. */
+#define FACE_COUNT 20000U
+#define BOX_WORK 100000000U
+#define PAIR_WORK 400000U
 
 typedef struct sampling {
     const mt_mesh *mesh;
     mt_triangulation triangulation;
-    box *boxes;               /* a triangle each; an empty one meets nothing */
+    triangle_blocks blocks;
     mt_index *firsts;         /* triangles of face f: firsts[f] up to firsts[f + 1] */
     mt_index *faces;          /* judged */
     uint64_t *offsets;        /* into `found`, a judged face each */
@@ -35,36 +31,16 @@ static void load(const sampling *s, mt_index number, integer_triangle *out)
     }
 }
 
-static box box_of(const integer_triangle *triangle)
-{
-    box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}, empty = b;
-    for (int i = 0; i < 3; i++) {
-        mt_vec3 point = triangle->points[i];
-        const double p[3] = {point.x, point.y, point.z};
-        for (int axis = 0; axis < 3; axis++) {
-            if (!isfinite(p[axis])) {
-                return empty;
-            }
-            b.low[axis] = p[axis] < b.low[axis] ? p[axis] : b.low[axis];
-            b.high[axis] = p[axis] > b.high[axis] ? p[axis] : b.high[axis];
-        }
-    }
-    return b;
-}
-
-static bool do_overlap(const box *a, const box *b)
+static bool do_overlap(const triangle_box *a, const triangle_box *b)
 {
     return a->low[0] <= b->high[0] && b->low[0] <= a->high[0] && a->low[1] <= b->high[1] && b->low[1] <= a->high[1] &&
            a->low[2] <= b->high[2] && b->low[2] <= a->high[2];
 }
 
-static void measure_boxes(sampling *s)
+static void find_firsts(sampling *s)
 {
     mt_index face = 0;
     for (mt_index number = 0; number < s->triangulation.triangle_count; number++) {
-        integer_triangle triangle;
-        load(s, number, &triangle);
-        s->boxes[number] = box_of(&triangle);
         while (face <= mt_triangulation_face(&s->triangulation, number)) {
             s->firsts[face++] = number;
         }
@@ -74,21 +50,59 @@ static void measure_boxes(sampling *s)
     }
 }
 
-static bool is_candidate(const sampling *s, mt_index face, mt_index a, mt_index b)
+/* Of a judged face's triangle and those of other faces whose boxes touch its own. */
+typedef struct search {
+    const sampling *sampling;
+    mt_index face;
+    integer_triangle first;
+    triangle_box box;
+    uint64_t count;
+    mt_index *found; /* NULL: they are counted only */
+} search;
+
+static bool may_touch(const void *user, const triangle_box *box)
 {
-    return do_overlap(&s->boxes[a], &s->boxes[b]) && mt_triangulation_face(&s->triangulation, b) != face;
+    const search *for_one = user;
+    return do_overlap(&for_one->box, box);
+}
+
+static void decide_candidate(void *user, mt_index number)
+{
+    search *for_one = user;
+    const sampling *s = for_one->sampling;
+    integer_triangle second;
+    load(s, number, &second);
+    triangle_box box = triangle_box_around(second.points);
+    mt_index face = mt_triangulation_face(&s->triangulation, number);
+    if (face == for_one->face || !do_overlap(&for_one->box, &box)) {
+        return;
+    }
+    if (for_one->found) {
+        for_one->found[for_one->count] = integer_triangles_intersect(&for_one->first, &second) ? face : MT_NONE;
+    }
+    for_one->count++;
+}
+
+static uint64_t search_around(sampling *s, mt_index face, mt_index *found)
+{
+    static const triangle_query query = {may_touch, decide_candidate};
+    search for_one = {.sampling = s, .face = face, .found = found};
+    for (mt_index a = s->firsts[face]; a < s->firsts[face + 1]; a++) {
+        load(s, a, &for_one.first);
+        const mt_vec3 *p = for_one.first.points;
+        for_one.box = triangle_box_around(p);
+        if (mt_vec3_is_finite(p[0]) && mt_vec3_is_finite(p[1]) && mt_vec3_is_finite(p[2])) {
+            triangle_blocks_visit(&s->blocks, &query, &for_one);
+        }
+    }
+    return for_one.count;
 }
 
 static void count_candidates(void *user, uint64_t begin, uint64_t end)
 {
     sampling *s = user;
     for (uint64_t i = begin; i < end; i++) {
-        mt_index face = s->faces[i];
-        for (mt_index a = s->firsts[face]; a < s->firsts[face + 1]; a++) {
-            for (mt_index b = 0; b < s->triangulation.triangle_count; b++) {
-                s->offsets[i] += is_candidate(s, face, a, b);
-            }
-        }
+        s->offsets[i] = search_around(s, s->faces[i], NULL);
     }
 }
 
@@ -96,33 +110,16 @@ static void decide_candidates(void *user, uint64_t begin, uint64_t end)
 {
     sampling *s = user;
     for (uint64_t i = begin; i < end; i++) {
-        mt_index face = s->faces[i], *found = s->found + s->offsets[i];
-        for (mt_index a = s->firsts[face]; a < s->firsts[face + 1]; a++) {
-            integer_triangle first, second;
-            load(s, a, &first);
-            for (mt_index b = 0; b < s->triangulation.triangle_count; b++) {
-                if (is_candidate(s, face, a, b)) {
-                    load(s, b, &second);
-                    bool meet = integer_triangles_intersect(&first, &second);
-                    *found++ = meet ? mt_triangulation_face(&s->triangulation, b) : MT_NONE;
-                }
-            }
-        }
+        search_around(s, s->faces[i], s->found + s->offsets[i]);
     }
 }
 
-/* Every step-th face, as far as the work allows. */
-static void choose_faces(sampling *s, mt_index step)
+/* Every so many faces one. */
+static void choose_faces(sampling *s)
 {
-    uint64_t triangles = 0;
-    s->count = 0;
-    for (mt_index face = 0; face < s->mesh->face_count; face++) {
-        uint64_t sum = triangles + s->firsts[face + 1] - s->firsts[face];
-        s->is_judged[face] = face % step == 0 && sum * s->triangulation.triangle_count <= BOX_WORK;
-        if (s->is_judged[face]) {
-            s->faces[s->count++] = face;
-            triangles = sum;
-        }
+    mt_index step = (s->mesh->face_count - 1) / FACE_COUNT + 1;
+    for (mt_index face = 0; face < s->mesh->face_count; face += step) {
+        s->faces[s->count++] = face;
     }
 }
 
@@ -131,6 +128,7 @@ static uint64_t limit_faces(sampling *s)
 {
     uint64_t sum = 0;
     mt_index kept = 0;
+    memset(s->is_judged, 0, s->mesh->face_count);
     for (mt_index i = 0; i < s->count; i++) {
         uint64_t count = s->offsets[i];
         s->is_judged[s->faces[i]] = sum + count <= PAIR_WORK;
@@ -180,15 +178,14 @@ static mt_status gather(const sampling *s, mt_context *context, uint64_t candida
 /* Twice: the first time tells how many pairs there are to decide, and so how many faces can be judged. */
 static mt_status decide(sampling *s, mt_context *context, pair_oracle *out)
 {
-    mt_index most = (mt_index)(BOX_WORK / ((uint64_t)s->triangulation.triangle_count + 1) + 1);
-    choose_faces(s, (s->mesh->face_count - 1) / most + 1);
-    mt_parallel_for(context, s->count, 1, count_candidates, s);
+    choose_faces(s);
+    s->count = (mt_index)triangle_blocks_ask(context, &s->blocks, s->count, BOX_WORK, count_candidates, s);
     uint64_t candidate_count = limit_faces(s);
     s->found = mt_allocate_array(context, candidate_count, sizeof *s->found);
     if (!s->found) {
         return MT_ERROR_OUT_OF_MEMORY;
     }
-    mt_parallel_for(context, s->count, 1, decide_candidates, s);
+    mt_parallel_for(context, s->count, 4, decide_candidates, s);
     out->judged_count = s->count;
     return gather(s, context, candidate_count, out);
 }
@@ -198,19 +195,21 @@ mt_status pair_oracle_make(mt_context *context, const mt_mesh *mesh, pair_oracle
     sampling s = {.mesh = mesh};
     mt_status status = mt_triangulation_init(context, mesh, &s.triangulation);
     if (status == MT_OK) {
-        s.boxes = mt_allocate_array(context, s.triangulation.triangle_count, sizeof *s.boxes);
         s.firsts = mt_allocate_array_zeroed(context, (uint64_t)mesh->face_count + 1, sizeof *s.firsts);
         s.faces = mt_allocate_array(context, mesh->face_count, sizeof *s.faces);
         s.offsets = mt_allocate_array_zeroed(context, mesh->face_count, sizeof *s.offsets);
         s.is_judged = mt_allocate_zeroed(context, mesh->face_count);
         out->is_judged = s.is_judged;
-        status = s.boxes && s.firsts && s.faces && s.offsets && s.is_judged ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
+        status = s.firsts && s.faces && s.offsets && s.is_judged ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
     }
     if (status == MT_OK) {
-        measure_boxes(&s);
+        status = triangle_blocks_make(context, mesh, &s.triangulation, &s.blocks);
+    }
+    if (status == MT_OK) {
+        find_firsts(&s);
         status = decide(&s, context, out);
     }
-    mt_free(context, s.boxes);
+    triangle_blocks_release(context, &s.blocks);
     mt_free(context, s.firsts);
     mt_free(context, s.faces);
     mt_free(context, s.offsets);

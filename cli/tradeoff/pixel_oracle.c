@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* Triangles looked at from all pixels together. */
-#define ORACLE_WORK 200000000U
+/* Boxes and triangles looked at from all pixels together. */
+#define ORACLE_WORK 100000000U
 #define PIXEL_COUNT 4000
 
 /* Pixels' widths within which a side is too near. The renderer's corners are floats: they move by a tenth of this. */
@@ -26,6 +26,7 @@ typedef struct view {
     const mt_mesh *mesh;
     double diagonal;
     mt_triangulation triangulation;
+    triangle_blocks blocks;
     quad3 eye, right, up, forward;
     place *places;
     pixel_oracle *out;
@@ -98,13 +99,27 @@ static bool is_drawn(const view *v, mt_index face)
 
 /* What a ray has met so far. */
 typedef struct sight {
+    const view *view;
+    mt_ray ray;
+    double x, y;     /* of the pixel's middle */
     double t, slack; /* of the nearest triangle, and how far the renderer's own may lie from there */
     mt_index face;
     double rival; /* from where on another face, or one whose side is too near to tell, may lie */
 } sight;
 
-static void meet(const view *v, const mt_ray *ray, double x, double y, mt_index triangle, sight *seen)
+/* A triangle whose side is in doubt lies aside of the ray by less than a hundredth of a pixel's width, at most three
+ * diagonals away. */
+static bool may_be_seen(const void *user, const triangle_box *box)
 {
+    const sight *seen = user;
+    return triangle_box_may_meet(box, &seen->ray, 3 * 2.0 / PIXEL_ORACLE_SIZE / 100 * seen->view->diagonal);
+}
+
+static void meet(void *user, mt_index triangle)
+{
+    sight *seen = user;
+    const view *v = seen->view;
+    double x = seen->x, y = seen->y;
     const place *p[3];
     mt_vec3 corners[3];
     for (mt_index side = 0; side < 3; side++) {
@@ -124,7 +139,7 @@ static void meet(const view *v, const mt_ray *ray, double x, double y, mt_index 
         seen->rival = fmin(seen->rival, near - DEPTH_DOUBT * v->diagonal);
         return;
     }
-    double t = quad_meet_triangle(corners, ray, 1e-9 * v->diagonal);
+    double t = quad_meet_triangle(corners, &seen->ray, 1e-9 * v->diagonal);
     double slack = (far - near) * (DOUBT / aside) + DEPTH_DOUBT * v->diagonal;
     if (t < seen->t) {
         seen->rival = face != seen->face ? fmin(seen->rival, seen->t - seen->slack) : seen->rival;
@@ -136,27 +151,23 @@ static void meet(const view *v, const mt_ray *ray, double x, double y, mt_index 
 
 static void look(void *user, uint64_t begin, uint64_t end)
 {
+    static const triangle_query query = {may_be_seen, meet};
     view *v = user;
     for (uint64_t i = begin; i < end; i++) {
         uint32_t pixel = v->out->pixels[i];
         double x = pixel % PIXEL_ORACLE_SIZE + 0.5, y = pixel / PIXEL_ORACLE_SIZE + 0.5;
-        mt_ray ray = ray_through(v, x, y);
-        sight seen = {INFINITY, 0, MT_NONE, INFINITY};
-        for (mt_index triangle = 0; triangle < v->triangulation.triangle_count; triangle++) {
-            meet(v, &ray, x, y, triangle, &seen);
-        }
+        sight seen = {v, ray_through(v, x, y), x, y, INFINITY, 0, MT_NONE, INFINITY};
+        triangle_blocks_visit(&v->blocks, &query, &seen);
         v->out->faces[i] = seen.face;
         v->out->is_clear[i] = seen.face == MT_NONE ? seen.rival == INFINITY : seen.t + seen.slack < seen.rival;
     }
 }
 
-static mt_status allocate_pixels(const view *v, mt_context *context, pixel_oracle *out)
+static mt_status allocate_pixels(mt_context *context, pixel_oracle *out)
 {
-    size_t count = ORACLE_WORK / ((size_t)v->triangulation.triangle_count + 1) + 1;
-    out->count = count < PIXEL_COUNT ? count : PIXEL_COUNT;
-    out->pixels = mt_allocate_array(context, out->count, sizeof *out->pixels);
-    out->faces = mt_allocate_array(context, out->count, sizeof *out->faces);
-    out->is_clear = mt_allocate(context, out->count);
+    out->pixels = mt_allocate_array(context, PIXEL_COUNT, sizeof *out->pixels);
+    out->faces = mt_allocate_array(context, PIXEL_COUNT, sizeof *out->faces);
+    out->is_clear = mt_allocate(context, PIXEL_COUNT);
     return out->pixels && out->faces && out->is_clear ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
 }
 
@@ -175,7 +186,7 @@ static void choose_pixels(const view *v)
         low_y = fmin(low_y, p->y), high_y = fmax(high_y, p->y);
     }
     tradeoff_random random = {3};
-    for (size_t i = 0; i < v->out->count; i++) {
+    for (size_t i = 0; i < PIXEL_COUNT; i++) {
         double x = within_picture(low_x + (high_x - low_x) * tradeoff_random_unit(&random));
         double y = within_picture(low_y + (high_y - low_y) * tradeoff_random_unit(&random));
         v->out->pixels[i] = (uint32_t)y * PIXEL_ORACLE_SIZE + (uint32_t)x;
@@ -192,13 +203,17 @@ mt_status pixel_oracle_make(mt_context *context, const mt_mesh *mesh, double dia
     mt_status status = mt_triangulation_init(context, mesh, &v.triangulation);
     if (status == MT_OK) {
         v.places = mt_allocate_array(context, mesh->vertex_count, sizeof *v.places);
-        status = v.places ? allocate_pixels(&v, context, out) : MT_ERROR_OUT_OF_MEMORY;
+        status = v.places ? allocate_pixels(context, out) : MT_ERROR_OUT_OF_MEMORY;
+    }
+    if (status == MT_OK) {
+        status = triangle_blocks_make(context, mesh, &v.triangulation, &v.blocks);
     }
     if (status == MT_OK) {
         mt_parallel_for(context, mesh->vertex_count, 4096, project, &v);
         choose_pixels(&v);
-        mt_parallel_for(context, out->count, 8, look, &v);
+        out->count = triangle_blocks_ask(context, &v.blocks, PIXEL_COUNT, ORACLE_WORK, look, &v);
     }
+    triangle_blocks_release(context, &v.blocks);
     mt_free(context, v.places);
     mt_triangulation_release(context, &v.triangulation);
     return status;

@@ -1,28 +1,10 @@
 #include "tradeoff/quad_triangle.h"
 
-/* Whether the ray may come near the triangle, in doubles and generously: the oracle's only shortcut. */
-static bool may_meet(const mt_vec3 p[3], const mt_ray *ray, double margin)
-{
-    double near = 0, far = INFINITY;
-    const double low[3] = {fmin(p[0].x, fmin(p[1].x, p[2].x)), fmin(p[0].y, fmin(p[1].y, p[2].y)),
-                           fmin(p[0].z, fmin(p[1].z, p[2].z))};
-    const double high[3] = {fmax(p[0].x, fmax(p[1].x, p[2].x)), fmax(p[0].y, fmax(p[1].y, p[2].y)),
-                            fmax(p[0].z, fmax(p[1].z, p[2].z))};
-    const double origin[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
-    const double along[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
-    for (int axis = 0; axis < 3; axis++) {
-        double a = (low[axis] - origin[axis] - margin) / along[axis];
-        double b = (high[axis] - origin[axis] + margin) / along[axis];
-        near = fmax(near, fmin(a, b));
-        far = fmin(far, fmax(a, b));
-    }
-    return near <= far;
-}
-
 /* By Cramer's rule. */
 double quad_meet_triangle(const mt_vec3 corners[3], const mt_ray *ray, double margin)
 {
-    if (!may_meet(corners, ray, margin)) {
+    triangle_box box = triangle_box_around(corners);
+    if (!triangle_box_may_meet(&box, ray, margin)) {
         return INFINITY;
     }
     quad3 a = quad3_from(corners[0]), d = quad3_from(ray->direction);
@@ -84,16 +66,21 @@ static quad3 area_vector(const mt_mesh *mesh, mt_index face)
     return sum;
 }
 
-void quad_vertex_normals(const mt_mesh *mesh, quad3 *normals)
+void quad_vertex_normals(const mt_mesh *mesh, mt_index step, quad3 *normals)
 {
     for (mt_index face = 0; face < mesh->face_count; face++) {
-        quad3 area = area_vector(mesh, face);
+        quad3 area = {0, 0, 0};
+        bool is_known = false;
         for (mt_index corner = mt_mesh_face_begin(mesh, face); corner < mt_mesh_face_end(mesh, face); corner++) {
             mt_index vertex = mesh->corner_vertices[corner];
-            normals[vertex] = quad3_add(normals[vertex], area);
+            if (vertex % step == 0) {
+                area = is_known ? area : area_vector(mesh, face);
+                is_known = true;
+                normals[vertex] = quad3_add(normals[vertex], area);
+            }
         }
     }
-    for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex++) {
+    for (mt_index vertex = 0; vertex < mesh->vertex_count; vertex += step) {
         normals[vertex] = quad3_normalize(normals[vertex]);
     }
 }

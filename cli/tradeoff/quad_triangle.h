@@ -3,8 +3,7 @@
 #define MESHTOOL_CLI_TRADEOFF_QUAD_TRIANGLE_H
 
 #include "tradeoff/quad.h"
-
-#include <meshtool/ray.h>
+#include "tradeoff/triangle_blocks.h"
 
 /* The ray's parameter where it meets the triangle, INFINITY: nowhere. Triangles whose box, widened by the margin, the
  * ray passes by in doubles are not looked at. */
@@ -12,7 +11,8 @@ double quad_meet_triangle(const mt_vec3 corners[3], const mt_ray *ray, double ma
 
 double quad_distance_to_triangle(const mt_vec3 corners[3], mt_vec3 point);
 
-/* The area-weighted unit normal of every vertex, n-gons by their area vectors; `normals` begin as zeros. */
-void quad_vertex_normals(const mt_mesh *mesh, quad3 *normals);
+/* The area-weighted unit normals of vertices 0, step, 2 step, ..., n-gons by their area vectors; `normals`, of all
+ * vertices, begin as zeros. */
+void quad_vertex_normals(const mt_mesh *mesh, mt_index step, quad3 *normals);
 
 #endif
