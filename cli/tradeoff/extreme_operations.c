@@ -208,6 +208,25 @@ static mt_vec3 some_point(const search *s, tradeoff_random *random)
     return at;
 }
 
+/* Brute force; what its box in doubles shows to be farther than some corner is left out. */
+static double distance_in_quad(const search *s, mt_vec3 point)
+{
+    double corner = INFINITY, exact = INFINITY;
+    for (mt_index triangle = 0; triangle < s->triangulation.triangle_count; triangle++) {
+        mt_vec3 p[3];
+        corners_of(s->mesh, &s->triangulation, triangle, p);
+        corner = fmin(corner, 1.75 * mt_vec3_max_abs(mt_vec3_subtract(p[0], point)));
+    }
+    for (mt_index triangle = 0; triangle < s->triangulation.triangle_count; triangle++) {
+        mt_vec3 p[3];
+        corners_of(s->mesh, &s->triangulation, triangle, p);
+        if (quad_may_be_nearer(p, point, fmin(corner, exact))) {
+            exact = fmin(exact, quad_distance_to_triangle(p, point));
+        }
+    }
+    return exact;
+}
+
 static mt_status closest_error(mt_context *context, const mt_mesh *mesh, double *out)
 {
     search s;
@@ -217,12 +236,7 @@ static mt_status closest_error(mt_context *context, const mt_mesh *mesh, double 
     for (mt_index i = 0; status == MT_OK && i < s.query_count; i++) {
         mt_vec3 point = some_point(&s, &random);
         mt_closest found;
-        double exact = INFINITY;
-        for (mt_index triangle = 0; triangle < s.triangulation.triangle_count; triangle++) {
-            mt_vec3 p[3];
-            corners_of(mesh, &s.triangulation, triangle, p);
-            exact = fmin(exact, quad_distance_to_triangle(p, point));
-        }
+        double exact = distance_in_quad(&s, point);
         bool is_found = mt_surface_tree_closest(s.tree, point, NULL, &found);
         worst =
             fmax(worst, is_found ? relative(exact, found.distance, (quad)exact + (quad)0x1p-50 * extent) : INFINITY);

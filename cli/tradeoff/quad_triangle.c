@@ -35,6 +35,21 @@ static quad squared_distance(quad3 a, quad3 b)
     return quad3_dot(d, d);
 }
 
+/* How far, at least, a number lies from those between the least and the greatest of three. */
+static double gap(double at, double a, double b, double c)
+{
+    return fmax(fmin(a, fmin(b, c)) - at, at - fmax(a, fmax(b, c)));
+}
+
+/* In shares of the distance, whose squares overflow only far away; a share that is no number leaves nothing out. */
+bool quad_may_be_nearer(const mt_vec3 p[3], mt_vec3 point, double distance)
+{
+    double x = fmax(gap(point.x, p[0].x, p[1].x, p[2].x), 0) / distance;
+    double y = fmax(gap(point.y, p[0].y, p[1].y, p[2].y), 0) / distance;
+    double z = fmax(gap(point.z, p[0].z, p[1].z, p[2].z), 0) / distance;
+    return !(x * x + y * y + z * z > 1 + 0x1p-40);
+}
+
 /* The foot of the perpendicular where it falls inside, else the nearest of the three sides. */
 double quad_distance_to_triangle(const mt_vec3 corners[3], mt_vec3 point)
 {

@@ -9,6 +9,9 @@
  * ray passes by in doubles are not looked at. */
 double quad_meet_triangle(const mt_vec3 corners[3], const mt_ray *ray, double margin);
 
+/* False: the triangle's box shows in doubles that it is farther from the point than the distance. */
+bool quad_may_be_nearer(const mt_vec3 corners[3], mt_vec3 point, double distance);
+
 double quad_distance_to_triangle(const mt_vec3 corners[3], mt_vec3 point);
 
 /* The area-weighted unit normals of vertices 0, step, 2 step, ..., n-gons by their area vectors; `normals`, of all
