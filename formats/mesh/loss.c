@@ -11,7 +11,7 @@
 void mt_loss_add(mt_loss *loss, const char *format, ...)
 {
     if (loss->count == ITEM_COUNT) {
-        snprintf(loss->items[ITEM_COUNT - 1], sizeof loss->items[0], "and more");
+        snprintf(loss->items[ITEM_COUNT - 1], sizeof loss->items[0], "more");
         return;
     }
     va_list arguments;
@@ -25,6 +25,17 @@ void mt_loss_add_count(mt_loss *loss, uint64_t count, const char *one, const cha
     if (count > 0) {
         mt_loss_add(loss, "%llu %s", (unsigned long long)count, count == 1 ? one : several);
     }
+}
+
+mt_status mt_loss_refuse(mt_context *context, const mt_loss *loss, const char *title)
+{
+    char text[sizeof loss->items + 5 * ITEM_COUNT] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < loss->count; i++) {
+        const char *before = i == 0 ? "" : i + 1 < loss->count ? ", " : " and ";
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", before, loss->items[i]);
+    }
+    return mt_fail(context, MT_ERROR_LOSS, "%s cannot hold %s, and no loss is allowed", title, text);
 }
 
 static uint64_t count_polygons(const mt_mesh *mesh)

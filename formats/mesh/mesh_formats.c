@@ -1,4 +1,5 @@
 /* The table of mesh formats, and what is common to all: recognition, reading and writing by name. */
+#include "formats/mesh/loss.h"
 #include "formats/mesh/recognition.h"
 #include "formats/mesh/records.h"
 #include "formats/stream/input.h"
@@ -174,8 +175,7 @@ static mt_status prepare_writing(mt_context *context, const mt_mesh *mesh, const
         status = mt_mesh_format_loss(context, mesh, format, options, loss);
     }
     if (status == MT_OK && options->strict_loss && loss->count > 0) {
-        status = mt_fail(context, MT_ERROR_LOSS, "%s cannot hold %s%s", format->title, loss->items[0],
-                         loss->count > 1 ? " and more" : "");
+        status = mt_loss_refuse(context, loss, format->title);
     }
     return status;
 }

@@ -25,6 +25,18 @@ sed 's/{"name":"m"}/{}/; s/"name":"a",//g' named.gltf >unnamed.gltf
 run 0 convert unnamed.gltf again.obj
 holds "no line without a name" test "$(grep '^[ou]' again.obj | tr '\n' ' ')" = "o b "
 
+# Refused is all that would be lost, in one sentence; past sixteen things there is more.
+run 3 convert named.obj none.stl --strict-loss
+says "none.stl: STL cannot hold object names and material names, and no loss is allowed"
+holds "nothing is written" test ! -e none.stl
+{
+  printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n'
+  seq -f 'property float value_%g' 20
+  printf 'end_header\n0 0 0 %s\n' "$(seq -s ' ' 20)"
+} >many.ply
+run 0 convert many.ply many.obj
+says 'vertex attribute "value_15" and more; these are lost'
+
 # What a glTF file holds and a mesh does not, and what is missing, with the place that asks for it.
 plain=$project/meshes/malformed/gltf/plain.gltf
 changed() { # CODE SENTENCE EDIT: the plain file, changed by sed

@@ -72,7 +72,7 @@ typedef struct mt_mesh_write_options {
 
 /* What writing the mesh in a format would lose: short phrases ("corner normals", "2 wires"). */
 typedef struct mt_loss {
-    size_t count; /* past the room the last item says "and more" */
+    size_t count; /* past the room the last item says "more" */
     char items[16][64];
 } mt_loss;
 
