@@ -26,6 +26,7 @@ typedef struct convert_settings {
 } convert_settings;
 
 #define UNSET UINT_MAX
+#define MOST_BITS_OF_GLTF 16
 
 static const char *const draco_methods[] = {"edgebreaker", "sequential", NULL};
 
@@ -110,7 +111,9 @@ static const cli_option options[] = {
      .expects = "a whole number from 0 to 30",
      .minimum = 0,
      .maximum = 30,
-     .help = "with Draco: round positions to BITS of their extent (default: 14); 0 keeps all numbers as they are"},
+     .help =
+         "round positions to BITS of their extent: with Draco (default: 14), or in glTF without it (up to 16); 0 keeps "
+         "all numbers as they are"},
     {.name = "draco-speed",
      .offset = offsetof(convert_settings, speed),
      .parse = cli_parse_count,
@@ -170,45 +173,58 @@ static cli_exit change(const cli_job *job, mt_mesh **mesh)
     return settings->triangulate ? triangulate(job, mesh) : CLI_EXIT_DONE;
 }
 
-static bool asks_for_draco(const convert_settings *settings)
-{
-    return settings->draco || settings->bits != UNSET || settings->speed != UNSET || settings->method != UNSET;
-}
-
 /* Draco's options need a format that takes them, and glTF needs to be told that they are meant. */
 static cli_exit check_draco(const cli_job *job, const mt_mesh_format *format)
 {
     const convert_settings *settings = job->settings;
-    if (!asks_for_draco(settings)) {
-        return CLI_EXIT_DONE;
-    }
-    if (!(format->abilities & MT_TAKES_DRACO)) {
+    bool asked = settings->draco || settings->speed != UNSET || settings->method != UNSET;
+    if (asked && !(format->abilities & MT_TAKES_DRACO)) {
         return cli_wrong_usage(job->command, "%s files are not compressed by Draco; drc, glb and gltf files can be",
                                format->name);
     }
     bool always = !(format->abilities & MT_HOLDS_PARTS); /* .drc */
-    return settings->draco || always
+    return !asked || settings->draco || always
                ? CLI_EXIT_DONE
                : cli_wrong_usage(job->command, "options of Draco need --draco for %s files", format->name);
 }
 
-static mt_draco_options draco_options(const convert_settings *settings)
+/* glTF is quantised with Draco and without it. */
+static cli_exit check_bits(const cli_job *job, const mt_mesh_format *format)
+{
+    const convert_settings *settings = job->settings;
+    if (settings->bits == UNSET || settings->draco) {
+        return CLI_EXIT_DONE;
+    }
+    if (!(format->abilities & (MT_TAKES_DRACO | MT_TAKES_QUANTIZATION))) {
+        return cli_wrong_usage(job->command, "%s files are not quantised; drc, glb and gltf files can be",
+                               format->name);
+    }
+    bool limited = format->abilities & MT_TAKES_QUANTIZATION;
+    return limited && settings->bits > MOST_BITS_OF_GLTF
+               ? cli_wrong_usage(job->command, "%s files hold positions in at most %d bits without --draco, not in %u",
+                                 format->name, MOST_BITS_OF_GLTF, settings->bits)
+               : CLI_EXIT_DONE;
+}
+
+static mt_mesh_write_options write_options(const convert_settings *settings, const mt_mesh_format *format)
 {
     unsigned profiled = cli_profile_of(&settings->common)->quantization;
     unsigned bits = settings->bits == UNSET ? profiled : settings->bits;
-    return (mt_draco_options){.compress = settings->draco,
-                              .lossless = bits == 0,
-                              .position_bits = bits,
-                              .has_speed = settings->speed != UNSET,
-                              .speed = settings->speed == UNSET ? 0 : settings->speed,
-                              .sequential = settings->method == 1};
+    bool plain = settings->bits != UNSET && !settings->draco && (format->abilities & MT_TAKES_QUANTIZATION);
+    return (mt_mesh_write_options){.draco = {.compress = settings->draco,
+                                             .lossless = bits == 0,
+                                             .position_bits = bits,
+                                             .has_speed = settings->speed != UNSET,
+                                             .speed = settings->speed == UNSET ? 0 : settings->speed,
+                                             .sequential = settings->method == 1},
+                                   .quantize_bits = plain ? bits : 0};
 }
 
-static cli_exit write(const cli_job *job, const mt_mesh *mesh, const char *path)
+static cli_exit write(const cli_job *job, const mt_mesh *mesh, const char *path, const mt_mesh_format *format)
 {
     json_t *lost = NULL;
-    mt_draco_options draco = draco_options(job->settings);
-    cli_exit code = cli_write_mesh_compressed(job, mesh, path, &draco, &lost);
+    mt_mesh_write_options how = write_options(job->settings, format);
+    cli_exit code = cli_write_mesh_as(job, mesh, path, &how, &lost);
     if (code == CLI_EXIT_DONE && job->common->json) {
         json_t *object = cli_json_object();
         cli_json_set(object, "lost", json_incref(lost));
@@ -238,13 +254,16 @@ static cli_exit run(const cli_job *job)
         code = check_draco(job, written);
     }
     if (code == CLI_EXIT_DONE) {
+        code = check_bits(job, written);
+    }
+    if (code == CLI_EXIT_DONE) {
         code = cli_read_mesh(job, job->operands[0], &mesh, &read);
     }
     if (code == CLI_EXIT_DONE) {
         code = change(job, &mesh);
     }
     if (code == CLI_EXIT_DONE) {
-        code = write(job, mesh, path);
+        code = write(job, mesh, path, written);
     }
     mt_mesh_destroy(job->context, mesh);
     return code;
@@ -264,6 +283,7 @@ const cli_command cli_convert_command = {
     .examples = "  meshtool convert part.stl part.ply\n"
                 "  meshtool convert cow.obj cow.stl --rotate x,90 --scale 0.001\n"
                 "  meshtool convert part.obj part.glb --draco --quantize 12\n"
+                "  meshtool convert part.obj part.glb --quantize 16\n"
                 "  meshtool convert - - --from obj --to off < cow.obj > cow.off\n",
     .options = options,
     .groups = CLI_GROUP_OUTPUT | CLI_GROUP_WRITE | CLI_GROUP_MESH | CLI_GROUP_READ | CLI_GROUP_PRECISION |

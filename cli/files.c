@@ -90,17 +90,15 @@ cli_exit cli_check_output(const cli_job *job, const char *path)
     return check_place(job, path);
 }
 
-static mt_mesh_write_options mesh_write_options(const cli_job *job, const mt_draco_options *draco)
+/* How to write, completed by the options that all commands have. */
+static mt_mesh_write_options mesh_write_options(const cli_job *job, mt_mesh_write_options how)
 {
-    mt_mesh_write_options options = {
-        .draco = draco ? *draco : (mt_draco_options){0},
-        .format = cli_extension(job->common->to),
-        .encoding = (mt_encoding)job->common->encoding,
-        .strict_loss = job->common->strict_loss,
-        .no_clobber = job->common->no_clobber,
-        .digits = job->common->strict_loss ? 0 : cli_profile_of(job->common)->digits,
-    };
-    return options;
+    how.format = cli_extension(job->common->to);
+    how.encoding = (mt_encoding)job->common->encoding;
+    how.strict_loss = job->common->strict_loss;
+    how.no_clobber = job->common->no_clobber;
+    how.digits = job->common->strict_loss ? 0 : cli_profile_of(job->common)->digits;
+    return how;
 }
 
 static cli_exit check_encoding(const cli_job *job, const mt_mesh_format *format)
@@ -132,7 +130,7 @@ cli_exit cli_check_mesh_output(const cli_job *job, const char *path, const mt_me
     if (code != CLI_EXIT_DONE) {
         return code;
     }
-    mt_mesh_write_options options = mesh_write_options(job, NULL);
+    mt_mesh_write_options options = mesh_write_options(job, (mt_mesh_write_options){0});
     *format = mt_mesh_format_for_output(job->context, path, &options);
     if (!*format) {
         return cli_report_failure(job, path);
@@ -203,13 +201,14 @@ static void warn_of_digits(const cli_job *job, const char *path, const char *dig
 
 cli_exit cli_write_mesh(const cli_job *job, const mt_mesh *mesh, const char *path, json_t **lost)
 {
-    return cli_write_mesh_compressed(job, mesh, path, NULL, lost);
+    static const mt_mesh_write_options defaults;
+    return cli_write_mesh_as(job, mesh, path, &defaults, lost);
 }
 
-cli_exit cli_write_mesh_compressed(const cli_job *job, const mt_mesh *mesh, const char *path,
-                                   const mt_draco_options *draco, json_t **lost)
+cli_exit cli_write_mesh_as(const cli_job *job, const mt_mesh *mesh, const char *path, const mt_mesh_write_options *how,
+                           json_t **lost)
 {
-    mt_mesh_write_options options = mesh_write_options(job, draco);
+    mt_mesh_write_options options = mesh_write_options(job, *how);
     mt_loss loss = {0};
     int part = mt_part_begin(job->context, "output", "asked for");
     mt_status status = mt_mesh_write_file(job->context, mesh, path, &options, &loss);

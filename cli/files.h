@@ -27,9 +27,9 @@ cli_exit cli_read_mesh(const cli_job *job, const char *path, mt_mesh **out, cons
 /* Writes a mesh with --to, --encoding and their kin; warns of what is lost, and adds it to *lost (a new array, the
  * caller's; NULL: not wanted). A failure is said and returned. */
 cli_exit cli_write_mesh(const cli_job *job, const mt_mesh *mesh, const char *path, json_t **lost);
-/* The same with Draco's options (NULL: the defaults). */
-cli_exit cli_write_mesh_compressed(const cli_job *job, const mt_mesh *mesh, const char *path,
-                                   const mt_draco_options *draco, json_t **lost);
+/* The same with the bits and the compression that are given. */
+cli_exit cli_write_mesh_as(const cli_job *job, const mt_mesh *mesh, const char *path, const mt_mesh_write_options *how,
+                           json_t **lost);
 cli_exit cli_write_image(const cli_job *job, const mt_image *image, const char *path);
 /* The same with the bits and the quality given. */
 cli_exit cli_write_image_as(const cli_job *job, const mt_image *image, const char *path,

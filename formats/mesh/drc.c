@@ -253,7 +253,7 @@ static mt_status write_drc(mt_context *context, const mt_mesh *mesh, const mt_me
     triangles.wire_count = triangles.point_count = 0;
     mt_status status = options->draco.lossless ? MT_OK : check_finite(context, mesh);
     if (status == MT_OK) {
-        status = mt_gltf_plan_make(context, &triangles, false, &plan);
+        status = mt_gltf_plan_make(context, &triangles, NULL, &plan);
     }
     if (status == MT_OK) {
         status = write_plan(&plan, options, output);

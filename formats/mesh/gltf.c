@@ -176,7 +176,8 @@ static bool holds_labels(const mt_mesh *mesh, const mt_labels *labels)
 
 #define ABILITIES                                                                                                      \
     (MT_HOLDS_INDICES | MT_HOLDS_WIRES | MT_HOLDS_POINTS | MT_HOLDS_VERTEX_NORMALS | MT_HOLDS_VERTEX_UVS |             \
-     MT_HOLDS_VERTEX_COLORS | MT_HOLDS_ALPHA | MT_HOLDS_PARTS | MT_SPLITS_VERTICES | MT_NEEDS_FINITE | MT_TAKES_DRACO)
+     MT_HOLDS_VERTEX_COLORS | MT_HOLDS_ALPHA | MT_HOLDS_PARTS | MT_SPLITS_VERTICES | MT_NEEDS_FINITE |                 \
+     MT_TAKES_DRACO | MT_TAKES_QUANTIZATION)
 
 const mt_mesh_format mt_glb_format = {
     .name = "glb",

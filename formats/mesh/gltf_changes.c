@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* The component as it is written, widened again. */
-static double written(const mt_gltf_column *column, mt_index value, unsigned k)
+/* Whether the component is written as it is. */
+static bool is_written(const mt_gltf_column *column, mt_index value, unsigned k, double from)
 {
     union {
         float floats[4];
@@ -15,10 +15,8 @@ static double written(const mt_gltf_column *column, mt_index value, unsigned k)
         uint8_t bytes[16];
     } to;
     mt_gltf_make_value(column, value, &to);
-    if (column->type == MT_U8) {
-        return to.bytes[k];
-    }
-    return column->type == MT_U16 ? (double)to.shorts[k] : (double)to.floats[k];
+    double number = column->type == MT_U8 ? to.bytes[k] : column->type == MT_U16 ? to.shorts[k] : (double)to.floats[k];
+    return from == (column->attribute->semantic == MT_SEMANTIC_UV && k == 1 ? 1.0 - number : number);
 }
 
 /* Values of a column that are not written as they are. */
@@ -29,12 +27,12 @@ static void count_values(const mt_gltf_column *column, mt_loss *loss)
     uint64_t rounded = 0, scaled = 0, lost = 0, clamped = 0;
     for (mt_index i = 0; i < attribute->value_count; i++) {
         double square = 0.0;
-        bool same = true, within = true;
+        bool same = !column->is_quantised, within = true;
         for (unsigned k = 0; k < attribute->component_count && k < column->component_count; k++) {
-            double from = mt_attribute_get(attribute, i, k), to = written(column, i, k);
+            double from = mt_attribute_get(attribute, i, k);
             square += from * from;
             within = within && from >= 0.0 && from <= mt_color_maximum(attribute->type);
-            same = same && (uvs && k == 1 ? 1.0 - to == from : to == from);
+            same = same && is_written(column, i, k, from);
         }
         bool unit = fabs(square - 1.0) < 2e-3;
         rounded += !same && (!normals || unit) && (normals || uvs || within);
@@ -42,8 +40,8 @@ static void count_values(const mt_gltf_column *column, mt_loss *loss)
         lost += normals && square == 0.0;
         clamped += !normals && !uvs && !within;
     }
-    bool color = !normals && !uvs, exact = color && column->type != MT_F32;
-    mt_loss_add_count(loss, color && exact ? 0 : rounded,
+    bool exact = column->is_quantised || column->type != MT_F32; /* or said of all together */
+    mt_loss_add_count(loss, exact ? 0 : rounded,
                       normals ? "normal rounded"
                       : uvs   ? "UV rounded"
                               : "color rounded",
@@ -91,7 +89,7 @@ static void count_vertices(const mt_gltf_plan *plan, mt_loss *loss)
 mt_status mt_gltf_changes(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options, mt_loss *loss)
 {
     mt_gltf_plan plan;
-    mt_status status = mt_gltf_plan_make(context, mesh, options->draco.compress, &plan);
+    mt_status status = mt_gltf_plan_make(context, mesh, options, &plan);
     if (status != MT_OK) {
         return status;
     }
@@ -100,6 +98,7 @@ mt_status mt_gltf_changes(mt_context *context, const mt_mesh *mesh, const mt_mes
         count_values(&plan.columns[i], loss);
         count_missing(mesh, &plan.columns[i], loss);
     }
+    mt_gltf_add_quantised(&plan, loss);
     mt_gltf_plan_release(&plan);
     return options->draco.compress ? mt_draco_changes(context, mesh, &options->draco, loss) : MT_OK;
 }

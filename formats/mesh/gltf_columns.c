@@ -20,6 +20,11 @@ const mt_labels *mt_gltf_part_labels(const mt_mesh *mesh)
     return labels;
 }
 
+unsigned mt_gltf_stride(unsigned component_count, mt_type type)
+{
+    return (unsigned)(component_count * mt_type_size(type) + 3) / 4 * 4;
+}
+
 static mt_gltf_column make_column(const mt_attribute *attribute, unsigned set)
 {
     mt_gltf_column column = {.attribute = attribute, .set = set, .type = MT_F32};
@@ -34,7 +39,7 @@ static mt_gltf_column make_column(const mt_attribute *attribute, unsigned set)
         column.component_count = attribute->component_count % 2 == 0 ? 4 : 3;
         column.type = attribute->type == MT_U8 || attribute->type == MT_U16 ? attribute->type : MT_F32;
     }
-    column.stride = (unsigned)(column.component_count * mt_type_size(column.type) + 3) / 4 * 4;
+    column.stride = mt_gltf_stride(column.component_count, column.type);
     return column;
 }
 
@@ -75,8 +80,9 @@ bool mt_gltf_holds_attribute(const mt_mesh *mesh, const mt_attribute *attribute,
     return false;
 }
 
-static void make_normal(const mt_attribute *attribute, mt_index value, float *to)
+static void make_normal(const mt_gltf_column *column, mt_index value, double *to)
 {
+    const mt_attribute *attribute = column->attribute;
     double n[3] = {0, 0, 0}, length = 0.0;
     for (uint32_t i = 0; i < 3 && value != MT_NONE; i++) {
         n[i] = mt_attribute_get(attribute, value, i);
@@ -86,17 +92,17 @@ static void make_normal(const mt_attribute *attribute, mt_index value, float *to
         length += (n[i] / largest) * (n[i] / largest);
     }
     length = largest * sqrt(length);
-    bool unit = fabs(length - 1.0) <= UNIT_TOLERANCE;
+    bool unit = fabs(length - 1.0) <= UNIT_TOLERANCE && !column->is_quantised;
     for (int i = 0; i < 3; i++) {
         double number = unit ? n[i] : n[i] / largest / (length / largest);
-        to[i] = length > 0.0 ? (float)number : i == 2 ? 1.0F : 0.0F;
+        to[i] = length > 0.0 ? number : i == 2 ? 1.0 : 0.0;
     }
 }
 
-static void make_uv(const mt_attribute *attribute, mt_index value, float *to)
+static void make_uv(const mt_attribute *attribute, mt_index value, double *to)
 {
-    to[0] = value == MT_NONE ? 0.0F : (float)mt_attribute_get(attribute, value, 0);
-    to[1] = value == MT_NONE ? 0.0F : (float)(1.0 - mt_attribute_get(attribute, value, 1));
+    to[0] = value == MT_NONE ? 0.0 : mt_attribute_get(attribute, value, 0);
+    to[1] = value == MT_NONE ? 0.0 : 1.0 - mt_attribute_get(attribute, value, 1);
 }
 
 /* Component k of a colour as a share of its maximum: grey is spread, what is not there is 1. */
@@ -111,30 +117,46 @@ static double color_component(const mt_attribute *attribute, mt_index value, uns
     return number < 0.0 ? 0.0 : number > 1.0 ? 1.0 : number;
 }
 
-static void make_color(const mt_gltf_column *column, mt_index value, void *to)
+/* The nearest whole number; from the middle between two the one away from 0. */
+static int nearest(double number)
 {
-    memset(to, 0, column->stride);
+    return (int)(number < 0.0 ? number - 0.5 : number + 0.5);
+}
+
+/* Numbers from 0 to 1, or -1 to 1, as shares of an integer's maximum (section 3.11); or as floats. */
+static void store(const mt_gltf_column *column, const double *numbers, void *to)
+{
+    if (column->type != MT_F32) {
+        memset(to, 0, column->stride);
+    }
     for (unsigned k = 0; k < column->component_count; k++) {
-        double share = color_component(column->attribute, value, k);
         if (column->type == MT_F32) {
-            ((float *)to)[k] = (float)share;
+            ((float *)to)[k] = (float)numbers[k];
         } else if (column->type == MT_U8) {
-            ((uint8_t *)to)[k] = (uint8_t)(share * 255.0 + 0.5);
+            ((uint8_t *)to)[k] = (uint8_t)nearest(numbers[k] * UINT8_MAX);
+        } else if (column->type == MT_U16) {
+            ((uint16_t *)to)[k] = (uint16_t)nearest(numbers[k] * UINT16_MAX);
+        } else if (column->type == MT_I8) {
+            ((int8_t *)to)[k] = (int8_t)nearest(numbers[k] * INT8_MAX);
         } else {
-            ((uint16_t *)to)[k] = (uint16_t)(share * 65535.0 + 0.5);
+            ((int16_t *)to)[k] = (int16_t)nearest(numbers[k] * INT16_MAX);
         }
     }
 }
 
 void mt_gltf_make_value(const mt_gltf_column *column, mt_index value, void *to)
 {
+    double numbers[4];
     if (column->attribute->semantic == MT_SEMANTIC_NORMAL) {
-        make_normal(column->attribute, value, to);
+        make_normal(column, value, numbers);
     } else if (column->attribute->semantic == MT_SEMANTIC_UV) {
-        make_uv(column->attribute, value, to);
+        make_uv(column->attribute, value, numbers);
     } else {
-        make_color(column, value, to);
+        for (unsigned k = 0; k < column->component_count; k++) {
+            numbers[k] = color_component(column->attribute, value, k);
+        }
     }
+    store(column, numbers, to);
 }
 
 /* The vertex of the split that a vertex of the chunk is. */
@@ -149,12 +171,46 @@ mt_index mt_gltf_source_of(const mt_gltf_plan *plan, const mt_gltf_chunk *chunk,
     return split < count ? split : plan->split.sources[split - count];
 }
 
-void mt_gltf_put_position(const mt_gltf_plan *plan, const mt_gltf_chunk *chunk, mt_index vertex, float *to)
+static void put_steps(const mt_gltf_plan *plan, mt_vec3 position, void *to)
 {
-    size_t at = 3 * (size_t)mt_gltf_source_of(plan, chunk, vertex);
+    unsigned steps[3];
+    mt_gltf_grid_steps(&plan->grid, position, steps);
+    memset(to, 0, mt_gltf_position_stride(plan));
     for (size_t i = 0; i < 3; i++) {
-        to[i] = plan->mesh->position_type == MT_F64 ? (float)((const double *)plan->mesh->positions)[at + i]
-                                                    : ((const float *)plan->mesh->positions)[at + i];
+        if (mt_gltf_position_type(plan) == MT_U8) {
+            ((uint8_t *)to)[i] = (uint8_t)steps[i];
+        } else {
+            ((uint16_t *)to)[i] = (uint16_t)steps[i];
+        }
+    }
+}
+
+void mt_gltf_put_position(const mt_gltf_plan *plan, const mt_gltf_chunk *chunk, mt_index vertex, void *to)
+{
+    mt_index source = mt_gltf_source_of(plan, chunk, vertex);
+    if (plan->grid.bits > 0) {
+        put_steps(plan, mt_mesh_position(plan->mesh, source), to);
+        return;
+    }
+    size_t at = 3 * (size_t)source;
+    float *floats = to;
+    for (size_t i = 0; i < 3; i++) {
+        floats[i] = plan->mesh->position_type == MT_F64 ? (float)((const double *)plan->mesh->positions)[at + i]
+                                                        : ((const float *)plan->mesh->positions)[at + i];
+    }
+}
+
+void mt_gltf_get_position(const mt_gltf_plan *plan, const mt_gltf_chunk *chunk, mt_index vertex, double out[3])
+{
+    union {
+        float floats[3];
+        uint16_t shorts[4];
+        uint8_t bytes[4];
+    } stored;
+    mt_type type = mt_gltf_position_type(plan);
+    mt_gltf_put_position(plan, chunk, vertex, &stored);
+    for (size_t k = 0; k < 3; k++) {
+        out[k] = type == MT_F32 ? (double)stored.floats[k] : type == MT_U16 ? stored.shorts[k] : stored.bytes[k];
     }
 }
 

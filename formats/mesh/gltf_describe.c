@@ -4,12 +4,15 @@
 
 #include "formats/stream/number.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #define ARRAY_BUFFER 34962
 #define ELEMENT_ARRAY_BUFFER 34963
+/* Whole numbers beyond are written with a fraction: readers that take those without one for integers refuse them. */
+#define LARGEST_INTEGER 9007199254740992.0
 #define INDEX_LIMIT 65535 /* vertices that indices of 16 bits can name, the restart value left out */
 
 uint64_t mt_gltf_view_size(uint64_t count, unsigned stride)
@@ -119,6 +122,13 @@ static void put_view(describer *d, uint64_t size, uint64_t padded, unsigned stri
     d->offset += padded;
 }
 
+/* Values of vertices; the stride is said where they are padded. */
+static void put_values_view(describer *d, uint64_t count, unsigned component_count, mt_type type, unsigned stride)
+{
+    bool padded = stride != component_count * mt_type_size(type);
+    put_view(d, count * stride, count * stride, padded ? stride : 0, ARRAY_BUFFER);
+}
+
 static void put_chunk_views(describer *d, const mt_gltf_chunk *chunk)
 {
     const mt_gltf_plan *plan = d->plan;
@@ -127,11 +137,10 @@ static void put_chunk_views(describer *d, const mt_gltf_chunk *chunk)
         put_view(d, chunk->packed.size, mt_gltf_view_size(chunk->packed.size, 1), 0, 0);
         return;
     }
-    put_view(d, 12 * count, 12 * count, 0, ARRAY_BUFFER);
+    put_values_view(d, count, 3, mt_gltf_position_type(plan), mt_gltf_position_stride(plan));
     for (size_t i = 0; i < plan->column_count; i++) {
         const mt_gltf_column *column = &plan->columns[i];
-        bool padded = column->stride != column->component_count * mt_type_size(column->type);
-        put_view(d, count * column->stride, count * column->stride, padded ? column->stride : 0, ARRAY_BUFFER);
+        put_values_view(d, count, column->component_count, column->type, column->stride);
     }
     if (indices > 0) {
         unsigned size = mt_gltf_index_size(chunk);
@@ -139,28 +148,33 @@ static void put_chunk_views(describer *d, const mt_gltf_chunk *chunk)
     }
 }
 
-/* Least and greatest positions, as floats. */
+/* "[1,2,3]" after a key. JSON has doubles: the digits of a float are those of it as a double. */
+static void put_numbers(describer *d, const char *key, const double numbers[3])
+{
+    put(d, key);
+    for (int k = 0; k < 3; k++) {
+        char number[MT_NUMBER_ROOM + 1];
+        number[mt_number_print(numbers[k], number)] = '\0';
+        bool whole = strspn(number, "-0123456789") == strlen(number);
+        put_format(d, "%s%s%s", k ? "," : "[", number, whole && fabs(numbers[k]) > LARGEST_INTEGER ? ".0" : "");
+    }
+    put(d, "]");
+}
+
+/* Least and greatest positions, as they are stored. */
 static void put_bounds(describer *d, const mt_gltf_chunk *chunk)
 {
-    float bounds[2][3];
+    double bounds[2][3];
     for (mt_index i = 0; i < chunk->vertex_count; i++) {
-        float p[3];
-        mt_gltf_put_position(d->plan, chunk, i, p);
+        double p[3];
+        mt_gltf_get_position(d->plan, chunk, i, p);
         for (int k = 0; k < 3; k++) {
             bounds[0][k] = i == 0 || p[k] < bounds[0][k] ? p[k] : bounds[0][k];
             bounds[1][k] = i == 0 || p[k] > bounds[1][k] ? p[k] : bounds[1][k];
         }
     }
-    for (int side = 0; side < 2; side++) {
-        put(d, side ? ",\"max\":[" : ",\"min\":[");
-        for (int k = 0; k < 3; k++) {
-            char number[MT_NUMBER_ROOM + 1];
-            /* JSON has doubles: the digits are those of the float as a double. */
-            number[mt_number_print((double)bounds[side][k], number)] = '\0';
-            put_format(d, "%s%s", k ? "," : "", number);
-        }
-        put(d, "]");
-    }
+    put_numbers(d, ",\"min\":", bounds[0]);
+    put_numbers(d, ",\"max\":", bounds[1]);
 }
 
 /* The beginning of an accessor; view SIZE_MAX: it has none. */
@@ -175,23 +189,28 @@ static void open_accessor(describer *d, size_t view, uint64_t offset)
     }
 }
 
+/* glTF's number for a type. */
+static unsigned component_code(mt_type type)
+{
+    static const unsigned codes[] = {[MT_I8] = 5120, [MT_U8] = 5121, [MT_I16] = 5122, [MT_U16] = 5123, [MT_F32] = 5126};
+    return codes[type];
+}
+
 static void put_chunk_accessors(describer *d, const mt_gltf_chunk *chunk)
 {
     const mt_gltf_plan *plan = d->plan;
     bool packed = chunk->packed.bytes;
     mt_index count = packed ? chunk->packed.vertex_count : chunk->vertex_count;
     open_accessor(d, packed ? SIZE_MAX : d->view++, 0);
-    put_format(d, "\"componentType\":5126,\"count\":%u,\"type\":\"VEC3\"", count);
+    put_format(d, "\"componentType\":%u,\"count\":%u,\"type\":\"VEC3\"", component_code(mt_gltf_position_type(plan)),
+               count);
     put_bounds(d, chunk);
     put(d, "}");
     for (size_t i = 0; i < plan->column_count; i++) {
         const mt_gltf_column *column = &plan->columns[i];
         open_accessor(d, packed ? SIZE_MAX : d->view++, 0);
-        put_format(d, "\"componentType\":%u,\"count\":%u,\"type\":\"VEC%u\"%s}",
-                   column->type == MT_F32  ? 5126
-                   : column->type == MT_U8 ? 5121
-                                           : 5123,
-                   count, column->component_count, column->type == MT_F32 ? "" : ",\"normalized\":true");
+        put_format(d, "\"componentType\":%u,\"count\":%u,\"type\":\"VEC%u\"%s}", component_code(column->type), count,
+                   column->component_count, column->type == MT_F32 ? "" : ",\"normalized\":true");
     }
     uint64_t offset = 0;
     for (size_t i = 0; i < chunk->primitive_count; i++) {
@@ -296,7 +315,13 @@ static void put_nodes(describer *d, size_t count)
         }
         put(d, mesh ? ",{" : "{");
         put_name(d, part == MT_NONE ? "" : plan->parts->names[part], ",");
-        put_format(d, "\"mesh\":%zu}", mesh++);
+        put_format(d, "\"mesh\":%zu", mesh++);
+        if (plan->grid.bits > 0) {
+            const double origin[] = {plan->grid.origin.x, plan->grid.origin.y, plan->grid.origin.z};
+            put_numbers(d, ",\"translation\":", origin);
+            put_numbers(d, ",\"scale\":", (const double[]){plan->grid.step, plan->grid.step, plan->grid.step});
+        }
+        put(d, "}");
     }
     put(d, "]");
 }
@@ -322,9 +347,10 @@ static void put_extensions(describer *d)
     for (size_t i = 0; i < d->plan->chunk_count; i++) {
         packed = packed || d->plan->chunks[i].packed.bytes;
     }
-    if (packed) {
-        put(d, ",\"extensionsUsed\":[\"KHR_draco_mesh_compression\"],"
-               "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]");
+    bool quantised = d->plan->grid.bits > 0 && d->plan->chunk_count > 0;
+    if (packed || quantised) {
+        const char *name = packed ? "KHR_draco_mesh_compression" : "KHR_mesh_quantization";
+        put_format(d, ",\"extensionsUsed\":[\"%s\"],\"extensionsRequired\":[\"%s\"]", name, name);
     }
 }
 

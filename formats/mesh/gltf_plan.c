@@ -295,14 +295,19 @@ static mt_status make_room(mt_gltf_plan *plan)
     return plan->own_indices ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
 }
 
-mt_status mt_gltf_plan_make(mt_context *context, const mt_mesh *mesh, bool apart, mt_gltf_plan *out)
+mt_status mt_gltf_plan_make(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options,
+                            mt_gltf_plan *out)
 {
+    bool apart = options && options->draco.compress;
     *out = (mt_gltf_plan){.context = context,
                           .mesh = mesh,
                           .parts = mt_gltf_part_labels(mesh),
                           .materials = mt_mesh_find_labels(mesh, MT_LABEL_MATERIAL)};
     out->column_count = mt_gltf_list_columns(mesh, out->columns);
-    mt_status status = mt_gltf_split_make(context, mesh, out->columns, out->column_count, &out->split);
+    mt_status status = options ? mt_gltf_quantise(out, options) : MT_OK;
+    if (status == MT_OK) {
+        status = mt_gltf_split_make(context, mesh, out->columns, out->column_count, &out->split);
+    }
     if (status == MT_OK) {
         status = mt_triangulation_init(context, mesh, &out->triangulation);
     }

@@ -74,13 +74,14 @@ static void put_numbers(sink *s, void *numbers, size_t count, size_t size)
 
 static void put_positions(sink *s, const mt_gltf_plan *plan, const mt_gltf_chunk *chunk)
 {
-    float block[3 * BLOCK_VERTICES];
+    uint32_t block[3 * BLOCK_VERTICES];
+    size_t words = mt_gltf_position_stride(plan) / 4, size = mt_type_size(mt_gltf_position_type(plan));
     for (mt_index i = 0; i < chunk->vertex_count; i += BLOCK_VERTICES) {
         mt_index count = chunk->vertex_count - i < BLOCK_VERTICES ? chunk->vertex_count - i : BLOCK_VERTICES;
         for (mt_index k = 0; k < count; k++) {
-            mt_gltf_put_position(plan, chunk, i + k, block + 3 * (size_t)k);
+            mt_gltf_put_position(plan, chunk, i + k, block + words * k);
         }
-        put_numbers(s, block, 3 * (size_t)count, sizeof *block);
+        put_numbers(s, block, 4 * words * count / size, size);
     }
 }
 
@@ -227,7 +228,7 @@ static mt_status write_mesh(mt_context *context, const mt_mesh *mesh, const mt_m
     if (status != MT_OK) {
         return status;
     }
-    status = mt_gltf_plan_make(context, mesh, options->draco.compress, &plan);
+    status = mt_gltf_plan_make(context, mesh, options, &plan);
     if (status != MT_OK) {
         return status;
     }

@@ -21,15 +21,18 @@ typedef enum mt_gltf_mode {
     MT_GLTF_TRIANGLE_FAN = 6
 } mt_gltf_mode;
 
-/* An attribute as it is written: tightly packed but for the padding of small colours to 4 bytes. */
+/* An attribute as it is written: tightly packed but for the padding of small values to 4 bytes. */
 typedef struct mt_gltf_column {
     const mt_attribute *attribute;
     unsigned set;
-    mt_type type; /* MT_F32, MT_U8 or MT_U16 */
+    mt_type type; /* MT_F32; integers are normalised: U8 or U16, normals I8 or I16 */
     unsigned component_count;
     unsigned stride;
+    bool is_quantised; /* it would be floats */
 } mt_gltf_column;
 
+/* Bytes from one value to the next. */
+unsigned mt_gltf_stride(unsigned component_count, mt_type type);
 /* The attributes that are written, in their order: normals, texture coordinates, colours. */
 size_t mt_gltf_list_columns(const mt_mesh *mesh, mt_gltf_column columns[MT_GLTF_COLUMNS]);
 /* Whether the attribute is among them. */
@@ -64,12 +67,21 @@ typedef struct mt_gltf_chunk {
     mt_draco_bytes packed;    /* bytes NULL: not compressed; else there is one primitive, of triangles */
 } mt_gltf_chunk;
 
+/* Where quantised positions stand: whole steps from the origin. One grid for the whole mesh, so that its parts still
+ * meet. */
+typedef struct mt_gltf_grid {
+    unsigned bits; /* 1 to 16, of 8 in bytes; 0: positions are floats */
+    mt_vec3 origin;
+    double step;
+} mt_gltf_grid;
+
 typedef struct mt_gltf_plan {
     mt_context *context;
     const mt_mesh *mesh;
     const mt_labels *parts, *materials; /* NULL: none */
     mt_gltf_column columns[MT_GLTF_COLUMNS];
     size_t column_count;
+    mt_gltf_grid grid;
     mt_gltf_split split;
     mt_triangulation triangulation;
     mt_gltf_chunk *chunks;
@@ -83,20 +95,36 @@ typedef struct mt_gltf_plan {
     bool reordered; /* faces are in another order than the mesh's */
 } mt_gltf_plan;
 
-/* apart: each material gets a chunk of its own, and what is no triangle another, as compression needs it. */
-mt_status mt_gltf_plan_make(mt_context *context, const mt_mesh *mesh, bool apart, mt_gltf_plan *out);
+/* With the options (NULL: none) columns are quantised, or each material gets a chunk of its own, and what is no
+ * triangle another, as compression needs it. */
+mt_status mt_gltf_plan_make(mt_context *context, const mt_mesh *mesh, const mt_mesh_write_options *options,
+                            mt_gltf_plan *out);
 void mt_gltf_plan_release(mt_gltf_plan *plan);
 mt_gltf_chunk *mt_gltf_add_chunk(mt_gltf_plan *plan);
 mt_gltf_primitive *mt_gltf_add_primitive(mt_gltf_plan *plan);
 
 /* The mesh's vertex that a vertex of the chunk is. */
 mt_index mt_gltf_source_of(const mt_gltf_plan *plan, const mt_gltf_chunk *chunk, mt_index vertex);
-/* Vertex `vertex` of a chunk as it is written: 3 floats, or a value of a column (column->stride bytes). */
-void mt_gltf_put_position(const mt_gltf_plan *plan, const mt_gltf_chunk *chunk, mt_index vertex, float *to);
+/* Vertex `vertex` of a chunk as it is written: its position (mt_gltf_position_stride bytes; 3 floats when the plan has
+ * no grid), or a value of a column (column->stride bytes). */
+void mt_gltf_put_position(const mt_gltf_plan *plan, const mt_gltf_chunk *chunk, mt_index vertex, void *to);
+/* The numbers of the position as it is stored, widened. */
+void mt_gltf_get_position(const mt_gltf_plan *plan, const mt_gltf_chunk *chunk, mt_index vertex, double out[3]);
 void mt_gltf_put_value(const mt_gltf_plan *plan, const mt_gltf_column *column, const mt_gltf_chunk *chunk,
                        mt_index vertex, void *to);
 /* A value of a column as it is written; MT_NONE: what stands where there is none. */
 void mt_gltf_make_value(const mt_gltf_column *column, mt_index value, void *to);
+
+/* Sets the grid and the columns' types when the options quantise. Error: bits that do not fit, a number that is not
+ * finite, an extent that single precision does not hold. */
+mt_status mt_gltf_quantise(mt_gltf_plan *plan, const mt_mesh_write_options *options);
+/* MT_F32, MT_U8 or MT_U16, not normalised; and the bytes from one position to the next. */
+mt_type mt_gltf_position_type(const mt_gltf_plan *plan);
+unsigned mt_gltf_position_stride(const mt_gltf_plan *plan);
+/* The nearest point of the grid, in steps from its origin. */
+void mt_gltf_grid_steps(const mt_gltf_grid *grid, mt_vec3 position, unsigned steps[3]);
+/* Says what the plan quantises. */
+void mt_gltf_add_quantised(const mt_gltf_plan *plan, mt_loss *loss);
 
 /* Compresses the chunks that hold triangles. */
 mt_status mt_gltf_pack(mt_gltf_plan *plan, const mt_draco_options *options, bool strict_loss);

@@ -169,7 +169,8 @@ mt_status mt_mesh_format_loss(mt_context *context, const mt_mesh *mesh, const mt
     if (!(held & MT_HOLDS_POINTS)) {
         mt_loss_add_count(out, mesh->point_count, "point", "points");
     }
-    if (!(held & MT_HOLDS_F64)) {
+    bool quantised = (held & MT_TAKES_QUANTIZATION) && options->quantize_bits > 0; /* from doubles */
+    if (!(held & MT_HOLDS_F64) && !quantised) {
         mt_loss_add_count(out, count_rounded(mesh), "coordinate rounded to single precision",
                           "coordinates rounded to single precision");
     }

@@ -10,14 +10,28 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 cases=()
+# bounds FILE OPTIONS...: six numbers.
+bounds() {
+  "$MESHTOOL" info --json -q "$@" | sed -n 's/.*"minimum": \[\([^]]*\)\], "maximum": \[\([^]]*\)\].*/[\1, \2]/p'
+}
+
 # expect MESH TRIANGLES LINES POINTS [OPTIONS...]: written as GLB and as glTF.
 expect() {
-  local mesh=$1 triangles=$2 lines=$3 points=$4 extension out
+  local mesh=$1 triangles=$2 lines=$3 points=$4 bits=0 extension out box=-
   shift 4
+  [ "${1:-}" != --quantize ] || bits=$2
+  [ "$mesh" = "$folder/nothing.obj" ] || box=$(bounds "$mesh")
   for extension in glb gltf; do
-    out=$folder/$(basename "$mesh" | tr . _)${1:-}.$extension
+    out=$folder/$(basename "$mesh" | tr . _)${1:-}$bits.$extension
     "$MESHTOOL" convert "$mesh" "$out" -q "$@"
-    cases+=("$out" "$triangles" "$lines" "$points")
+    cases+=("$out" "$triangles" "$lines" "$points" "$bits" "$box")
+  done
+}
+
+# quantized MESH TRIANGLES LINES POINTS: in bytes and in words, at both of their ends.
+quantized() {
+  for bits in 1 8 9 16; do
+    expect "$@" --quantize $bits
   done
 }
 
@@ -48,11 +62,14 @@ l 1 2 3 4
 p 5 6
 TEXT
 printf 'v 0 0 0\nv 1 2 3\n' >"$folder/points.obj"
+printf 'v 1 2 3\n' >"$folder/one.obj"
 printf '# nothing\n' >"$folder/nothing.obj"
 grep -v '^[fp]' "$folder/everything.obj" >"$folder/colored.obj"
 printf 'f 1 2 3 4\nf 3 2 5\n' >>"$folder/colored.obj"
 "$MESHTOOL" convert "$folder/colored.obj" "$folder/colored.ply" -q
 "$MESHTOOL" generate icosphere --resolution 6 -o "$folder/large.ply"
+"$MESHTOOL" generate icosphere --resolution 2 -o "$folder/smooth.ply"
+"$MESHTOOL" normals "$folder/smooth.ply" --kind vertex -o "$folder/fine.ply" -q
 
 expect "$folder/everything.obj" 4 5 2
 expect "$folder/colored.ply" 3 5 0
@@ -63,6 +80,13 @@ expect meshes/valid/teapot.obj 4030 0 0
 expect meshes/valid/torus.stl 144 0 0
 expect meshes/valid/cone.ply 62 0 0
 expect meshes/non_manifold/isolated_vertices.obj 4 0 0
+quantized "$folder/everything.obj" 4 5 2
+quantized "$folder/colored.ply" 3 5 0
+quantized "$folder/points.obj" 0 0 2
+quantized "$folder/one.obj" 0 0 1
+quantized "$folder/fine.ply" 320 0 0
+quantized meshes/valid/teapot.obj 4030 0 0
+expect "$folder/nothing.obj" 0 0 0 --quantize 12 --from obj
 expect "$folder/everything.obj" - - - --draco
 expect "$folder/colored.ply" - - - --draco --quantize 0
 expect meshes/valid/teapot.obj - - - --draco --quantize 11 --draco-speed 10

@@ -1,5 +1,6 @@
-// Holds glTF files beside Khronos's validator and three.js's GLTFLoader: node gltf_peers.mjs MODULES FILE TRIANGLES LINES POINTS...
-// Prints what is wrong; exits 1 when anything is.
+// Holds glTF files beside Khronos's validator and three.js's GLTFLoader: node gltf_peers.mjs MODULES CASE..., each case
+// being FILE TRIANGLES LINES POINTS BITS BOUNDS. Bounds: six numbers as a JSON array, "-" for a file that holds nothing;
+// bits: of positions, 0 for floats. Prints what is wrong; exits 1 when anything is.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
@@ -11,6 +12,7 @@ const validator = require('gltf-validator');
 const url = (path) => pathToFileURL(join(modules, 'node_modules', path));
 globalThis.ProgressEvent ??= class extends Event {};
 globalThis.self ??= globalThis;
+const { Box3 } = await import(url('three/build/three.module.js'));
 const { GLTFLoader } = await import(url('three/examples/jsm/loaders/GLTFLoader.js'));
 
 let wrong = 0;
@@ -42,8 +44,20 @@ function count(scene) {
   return found;
 }
 
-for (let i = 0; i < cases.length; i += 4) {
-  const [file, triangles, lines, points] = cases.slice(i, i + 4);
+// Where the loader puts the vertices, through the nodes' transforms: within half a step, and what floats round.
+function measure(file, scene, expected, bits) {
+  const box = new Box3().setFromObject(scene, true);
+  const extent = Math.max(...[0, 1, 2].map((k) => expected[k + 3] - expected[k]));
+  const error = extent * ((bits ? 0.5 / (2 ** bits - 1) : 0) + 1e-6);
+  const found = [...box.min.toArray(), ...box.max.toArray()];
+  if (!found.every((number, k) => Math.abs(number - expected[k]) <= error)) {
+    complain(file, `three.js puts it within ${found}, expected ${expected} within ${error}`);
+  }
+}
+
+const WIDTH = 6;
+for (let i = 0; i < cases.length; i += WIDTH) {
+  const [file, triangles, lines, points, bits, bounds] = cases.slice(i, i + WIDTH);
   const buffer = readFileSync(file);
   const bytes = buffer.buffer.slice(buffer.byteOffset, buffer.byteOffset + buffer.byteLength);
   await validate(file, bytes);
@@ -54,9 +68,10 @@ for (let i = 0; i < cases.length; i += 4) {
     for (const [kind, expected] of Object.entries({ triangles, lines, points })) {
       if (found[kind] !== Number(expected)) complain(file, `three.js draws ${found[kind]} ${kind}, expected ${expected}`);
     }
+    if (bounds !== '-') measure(file, loaded.scene, JSON.parse(bounds), Number(bits));
   } catch (error) {
     complain(file, `three.js refuses it: ${error}`);
   }
 }
-console.log(`${cases.length / 4} files, ${wrong} complaints`);
+console.log(`${cases.length / WIDTH} files, ${wrong} complaints`);
 process.exit(wrong ? 1 : 0);

@@ -24,15 +24,16 @@ typedef enum mt_ability {
     MT_HOLDS_GENERIC = 1u << 11, /* attributes known by name on vertices and faces */
     MT_HOLDS_GROUPS = 1u << 12,  /* groups, objects, materials, smoothing */
     MT_HOLDS_SOLIDS = 1u << 13,
-    MT_HOLDS_CREASES = 1u << 14,   /* sharpness on edges and vertices */
-    MT_HOLDS_F64 = 1u << 15,       /* positions in double precision */
-    MT_HOLDS_ALPHA = 1u << 16,     /* the fourth component of colours */
-    MT_HOLDS_UV_DEPTH = 1u << 17,  /* the third component of UVs */
-    MT_HOLDS_LIBRARIES = 1u << 18, /* names of material libraries */
-    MT_HOLDS_PARTS = 1u << 19,     /* parts and materials by name */
-    MT_SPLITS_VERTICES = 1u << 20, /* values on corners are held, by splitting vertices */
-    MT_NEEDS_FINITE = 1u << 21,    /* a number that is not finite as a float is refused */
-    MT_TAKES_DRACO = 1u << 22      /* mt_draco_options mean something */
+    MT_HOLDS_CREASES = 1u << 14,     /* sharpness on edges and vertices */
+    MT_HOLDS_F64 = 1u << 15,         /* positions in double precision */
+    MT_HOLDS_ALPHA = 1u << 16,       /* the fourth component of colours */
+    MT_HOLDS_UV_DEPTH = 1u << 17,    /* the third component of UVs */
+    MT_HOLDS_LIBRARIES = 1u << 18,   /* names of material libraries */
+    MT_HOLDS_PARTS = 1u << 19,       /* parts and materials by name */
+    MT_SPLITS_VERTICES = 1u << 20,   /* values on corners are held, by splitting vertices */
+    MT_NEEDS_FINITE = 1u << 21,      /* a number that is not finite as a float is refused */
+    MT_TAKES_DRACO = 1u << 22,       /* mt_draco_options mean something */
+    MT_TAKES_QUANTIZATION = 1u << 23 /* so does quantize_bits */
 } mt_ability;
 
 typedef enum mt_encoding {
@@ -68,6 +69,13 @@ typedef struct mt_mesh_write_options {
     bool no_clobber;      /* refuse with MT_ERROR_IO when the file exists */
     unsigned digits; /* significant digits of positions in text, up to 17; 0: the shortest that read back the same */
     mt_draco_options draco;
+    /* glTF without Draco: 1 to 16, positions become whole steps of extent / (2^bits - 1) from the least corner of the
+     * bounds, by KHR_mesh_quantization; the extent is the largest side, and a vertex moves by half a step on each axis
+     * at most. The nodes have the step and the corner in double precision; what a reader that computes in single
+     * precision gets is rounded by some 2^-24 of the coordinates besides. Positions take 4 bytes up to 8 bits, 8 beyond
+     * (floats: 12); normals have 8 bits with the former and 16 with the latter, texture coordinates within 0 to 1 and
+     * float colours 16. 0: floats. More, or together with draco.compress: MT_ERROR_ARGUMENT. */
+    unsigned quantize_bits;
 } mt_mesh_write_options;
 
 /* What writing the mesh in a format would lose: short phrases ("corner normals", "2 wires"). */
