@@ -72,7 +72,8 @@ mt_status mt_scene_part_build_tree(mt_context *context, mt_scene_part *part)
                                     : "few triangles: every ray meets them all");
     }
     part->is_built = true;
-    return mt_ray_structure_create(context, part->source.mesh, &part->model.triangulation, kind, &part->structure);
+    return mt_ray_structure_create(context, part->source.mesh, &part->model.triangulation, kind, MT_BUILD_BALANCED,
+                                   &part->structure);
 }
 
 void mt_scene_part_release(mt_context *context, mt_scene_part *part)

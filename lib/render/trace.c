@@ -37,7 +37,8 @@ mt_status mt_occluder_init(mt_context *context, const mt_model *model, mt_ray_pr
         return mt_context_error(context)->status;
     }
     mt_parallel_for(context, mesh->vertex_count, VERTEX_BLOCK, fill_positions, occluder);
-    mt_status status = mt_ray_structure_create(context, mesh, &model->triangulation, kind, &occluder->structure);
+    mt_status status =
+        mt_ray_structure_create(context, mesh, &model->triangulation, kind, MT_BUILD_BALANCED, &occluder->structure);
     if (status != MT_OK) {
         mt_occluder_release(context, occluder);
     }

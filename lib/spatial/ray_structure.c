@@ -14,7 +14,8 @@ struct mt_ray_structure {
 static mt_status create_tree(mt_context *context, const mt_ray_source *source, void **body)
 {
     mt_surface_tree *tree = NULL;
-    mt_status status = mt_surface_tree_create(context, source->mesh, source->triangulation, NULL, &tree);
+    const mt_surface_tree_options options = {.quality = source->quality};
+    mt_status status = mt_surface_tree_create(context, source->mesh, source->triangulation, &options, &tree);
     *body = tree;
     return status;
 }
@@ -78,7 +79,7 @@ static mt_status check_order(mt_context *context, const mt_triangulation *triang
 }
 
 mt_status mt_ray_structure_create(mt_context *context, const mt_mesh *mesh, const mt_triangulation *triangulation,
-                                  mt_ray_structure_kind kind, mt_ray_structure **out)
+                                  mt_ray_structure_kind kind, mt_build_quality quality, mt_ray_structure **out)
 {
     *out = NULL;
     mt_status status = check_order(context, triangulation, kind);
@@ -89,7 +90,7 @@ mt_status mt_ray_structure_create(mt_context *context, const mt_mesh *mesh, cons
     if (!structure) {
         return mt_context_error(context)->status;
     }
-    const mt_ray_source source = {mesh, triangulation, mt_ray_space_of(mesh)};
+    const mt_ray_source source = {mesh, triangulation, mt_ray_space_of(mesh), quality};
     structure->kind = kind;
     structure->space = source.space;
     status = records[kind]->create(context, &source, &structure->body);

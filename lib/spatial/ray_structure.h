@@ -9,6 +9,7 @@ typedef struct mt_ray_source {
     const mt_mesh *mesh;
     const mt_triangulation *triangulation;
     mt_ray_space space;
+    mt_build_quality quality;
 } mt_ray_source;
 
 /* `body` is the structure's own; destroy takes it half made too, never NULL. any: the first hit will do. */

@@ -261,7 +261,8 @@ static void release_job(build_job *job)
 
 mt_status mt_surface_build(mt_context *context, mt_surface_tree *tree, mt_surface_box *boxes)
 {
-    build_job job = {.context = context, .tree = tree, .work = {.context = context, .boxes = boxes}};
+    build_job job = {
+        .context = context, .tree = tree, .work = {.context = context, .quality = tree->quality, .boxes = boxes}};
     uint64_t words = (uint64_t)tree->count * MT_SURFACE_WORDS + MT_WIDTH;
     tree->words = mt_allocate_array(context, words, sizeof *tree->words);
     mt_status status = MT_ERROR_OUT_OF_MEMORY;

@@ -54,6 +54,27 @@ static binning choose_binning(const mt_surface_range *range)
     return map;
 }
 
+/* Two bins across the axis along which the centroids lie farthest apart; no axis has a scale where they are one. */
+static binning halve_longest(const mt_surface_range *range)
+{
+    binning map = {.origin = range->centers.lower, .scale = {0, 0, 0, 0}, .bin_count = 2};
+    float4 extent = range->centers.upper - range->centers.lower;
+    int axis = extent[0] >= extent[1] ? 0 : 1;
+    axis = extent[2] > extent[axis] ? 2 : axis;
+    map.scale[axis] = extent[axis] > SMALLEST_EXTENT ? 2 * BELOW_ONE / extent[axis] : 0;
+    return map;
+}
+
+static plane middle_of(const binning *map)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        if (map->scale[axis] > 0) {
+            return (plane){axis, 1};
+        }
+    }
+    return (plane){-1, 0};
+}
+
 static void clear_bins(mt_split_bins *bins, int bin_count)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -131,14 +152,16 @@ static plane choose_plane(const mt_split_bins *bins, int bin_count)
     return best;
 }
 
-/* Writes each box of [begin, end) to the left or the right output, in order; returns the number that went left. */
-static mt_index deal_boxes(const block_job *job, mt_index begin, mt_index end, mt_surface_box *left,
-                           mt_surface_box *right, box centers[2])
+/* Writes each box of [begin, end) to the left or the right output, in order; returns the number that went left. The
+ * bounds of each side are found where bins have not told them. */
+static inline __attribute__((always_inline)) mt_index deal_boxes(const block_job *job, mt_index begin, mt_index end,
+                                                                 mt_surface_box *left, mt_surface_box *right,
+                                                                 mt_split_sides *sides, bool finds_bounds)
 {
     const mt_surface_box *boxes = job->work->boxes;
     mt_index left_count = 0;
     int axis = job->cut.axis;
-    centers[0] = centers[1] = box_empty();
+    mt_split_sides s = {{box_empty(), box_empty()}, {box_empty(), box_empty()}};
     for (mt_index i = begin; i < end; i++) {
         mt_surface_box record = boxes[i];
         box one = box_load(&record);
@@ -147,10 +170,21 @@ static mt_index deal_boxes(const block_job *job, mt_index begin, mt_index end, m
         left[left_count] = record; /* to both, without a branch: which side is anyone's guess */
         right[i - begin - left_count] = record;
         left_count += !is_right;
-        centers[is_right].lower = float4_minimum(centers[is_right].lower, center);
-        centers[is_right].upper = float4_maximum(centers[is_right].upper, center);
+        s.centers[is_right].lower = float4_minimum(s.centers[is_right].lower, center);
+        s.centers[is_right].upper = float4_maximum(s.centers[is_right].upper, center);
+        if (finds_bounds) {
+            s.bounds[is_right] = box_join(s.bounds[is_right], one);
+        }
     }
+    *sides = s;
     return left_count;
+}
+
+static mt_index deal(const block_job *job, mt_index begin, mt_index end, mt_surface_box *left, mt_surface_box *right,
+                     mt_split_sides *sides)
+{
+    return job->work->quality == MT_BUILD_FAST ? deal_boxes(job, begin, end, left, right, sides, true)
+                                               : deal_boxes(job, begin, end, left, right, sides, false);
 }
 
 static void deal_blocks(void *user, uint64_t begin, uint64_t end)
@@ -159,7 +193,7 @@ static void deal_blocks(void *user, uint64_t begin, uint64_t end)
     mt_split_block *block = &job->work->blocks[begin / job->block_size];
     mt_index first = job->range->begin + (mt_index)begin, last = job->range->begin + (mt_index)end;
     mt_surface_box *boxes = job->work->boxes, *scratch = job->work->scratch;
-    block->left_count = deal_boxes(job, first, last, boxes + first, scratch + first, block->centers);
+    block->left_count = deal(job, first, last, boxes + first, scratch + first, &block->sides);
 }
 
 static void gather_blocks(void *user, uint64_t begin, uint64_t end)
@@ -172,13 +206,13 @@ static void gather_blocks(void *user, uint64_t begin, uint64_t end)
     memcpy(boxes + block->right, scratch + first, right_count * sizeof *boxes);
 }
 
-static mt_surface_range part_of(const mt_split_bins *bins, plane cut, int bin_count, bool right)
+static box bounds_of(const mt_split_bins *bins, plane cut, int bin_count, bool right)
 {
-    mt_surface_range part = {.bounds = box_empty()};
+    box bounds = box_empty();
     for (int bin = right ? cut.bin : 0; bin < (right ? bin_count : cut.bin); bin++) {
-        part.bounds = box_join(part.bounds, bins->bounds[cut.axis][bin]);
+        bounds = box_join(bounds, bins->bounds[cut.axis][bin]);
     }
-    return part;
+    return bounds;
 }
 
 static mt_surface_range bound_range(const mt_surface_box *boxes, mt_index begin, mt_index end)
@@ -207,27 +241,29 @@ static mt_index close_up_left(const block_job *job, mt_index count)
     return left;
 }
 
-static void deal_in_blocks(block_job *job, mt_index count, mt_index *middle, box centers[2])
+static void deal_in_blocks(block_job *job, mt_index count, mt_index *middle, mt_split_sides *sides)
 {
     mt_parallel_for(job->work->context, count, job->block_size, deal_blocks, job);
     mt_index right = *middle = close_up_left(job, count);
-    centers[0] = centers[1] = box_empty();
+    *sides = (mt_split_sides){{box_empty(), box_empty()}, {box_empty(), box_empty()}};
     for (mt_index i = 0; (uint64_t)i * job->block_size < count; i++) {
         mt_split_block *block = &job->work->blocks[i];
         mt_index size = count - i * job->block_size < job->block_size ? count - i * job->block_size : job->block_size;
         block->right = right;
         right += size - block->left_count;
-        centers[0] = box_join(centers[0], block->centers[0]);
-        centers[1] = box_join(centers[1], block->centers[1]);
+        for (int side = 0; side < 2; side++) {
+            sides->centers[side] = box_join(sides->centers[side], block->sides.centers[side]);
+            sides->bounds[side] = box_join(sides->bounds[side], block->sides.bounds[side]);
+        }
     }
     mt_parallel_for(job->work->context, count, job->block_size, gather_blocks, job);
 }
 
-static void deal_alone(const block_job *job, mt_index *middle, box centers[2])
+static void deal_alone(const block_job *job, mt_index *middle, mt_split_sides *sides)
 {
     const mt_surface_range *range = job->range;
     mt_surface_box *boxes = job->work->boxes, *scratch = job->work->scratch;
-    mt_index left = deal_boxes(job, range->begin, range->end, boxes + range->begin, scratch + range->begin, centers);
+    mt_index left = deal(job, range->begin, range->end, boxes + range->begin, scratch + range->begin, sides);
     *middle = range->begin + left;
     memcpy(boxes + *middle, scratch + range->begin, (range->end - *middle) * sizeof *boxes);
 }
@@ -244,31 +280,42 @@ mt_surface_range mt_surface_range_of(const mt_split_work *work, mt_index begin, 
     return bound_range(work->boxes, begin, end);
 }
 
+/* The best of the planes between bins, of which each part's bounds come. */
+static plane weigh_bins(const block_job *job, mt_index count, bool in_blocks, mt_split_bins *bins)
+{
+    const mt_split_work *work = job->work;
+    clear_bins(bins, job->map.bin_count);
+    if (in_blocks) {
+        mt_parallel_for(work->context, count, job->block_size, fill_blocks, (void *)job);
+        for (mt_index i = 0; (uint64_t)i * job->block_size < count; i++) {
+            join_bins(bins, &work->blocks[i].bins, job->map.bin_count);
+        }
+    } else {
+        fill_bins(work->boxes, job->range->begin, job->range->end, &job->map, bins);
+    }
+    return choose_plane(bins, job->map.bin_count);
+}
+
 void mt_surface_split(const mt_split_work *work, const mt_surface_range *range, bool halve, mt_surface_range parts[2])
 {
     mt_index count = range->end - range->begin, middle;
-    block_job job = {.work = work, .range = range, .map = choose_binning(range)};
+    bool is_fast = work->quality == MT_BUILD_FAST, in_blocks = work->context && count / BLOCK_SIZE >= 4;
+    block_job job = {.work = work, .range = range, .map = is_fast ? halve_longest(range) : choose_binning(range)};
     job.block_size = count / MT_SPLIT_BLOCKS + 1 > BLOCK_SIZE ? count / MT_SPLIT_BLOCKS + 1 : BLOCK_SIZE;
-    bool in_blocks = work->context && count / BLOCK_SIZE >= 4;
     mt_split_bins bins;
-    clear_bins(&bins, job.map.bin_count);
-    if (in_blocks && !halve) {
-        mt_parallel_for(work->context, count, job.block_size, fill_blocks, &job);
-        for (mt_index i = 0; (uint64_t)i * job.block_size < count; i++) {
-            join_bins(&bins, &work->blocks[i].bins, job.map.bin_count);
-        }
-    } else if (!halve) {
-        fill_bins(work->boxes, range->begin, range->end, &job.map, &bins);
+    if (!halve) {
+        job.cut = is_fast ? middle_of(&job.map) : weigh_bins(&job, count, in_blocks, &bins);
     }
-    job.cut = choose_plane(&bins, job.map.bin_count);
     if (halve || job.cut.axis < 0) {
         halve_range(work, range, parts);
         return;
     }
-    box centers[2];
-    in_blocks ? deal_in_blocks(&job, count, &middle, centers) : deal_alone(&job, &middle, centers);
-    parts[0] = part_of(&bins, job.cut, job.map.bin_count, false);
-    parts[1] = part_of(&bins, job.cut, job.map.bin_count, true);
-    parts[0].begin = range->begin, parts[0].end = middle, parts[0].centers = centers[0];
-    parts[1].begin = middle, parts[1].end = range->end, parts[1].centers = centers[1];
+    mt_split_sides sides;
+    in_blocks ? deal_in_blocks(&job, count, &middle, &sides) : deal_alone(&job, &middle, &sides);
+    for (int side = 0; side < 2; side++) {
+        parts[side].begin = side ? middle : range->begin;
+        parts[side].end = side ? range->end : middle;
+        parts[side].bounds = is_fast ? sides.bounds[side] : bounds_of(&bins, job.cut, job.map.bin_count, side == 1);
+        parts[side].centers = sides.centers[side];
+    }
 }

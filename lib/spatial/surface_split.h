@@ -19,14 +19,20 @@ typedef struct mt_split_bins {
     mt_index counts[3][MT_SPLIT_BINS];
 } mt_split_bins;
 
+/* What lies left of a plane, and right of it: all centroids, and all boxes. */
+typedef struct mt_split_sides {
+    box centers[2], bounds[2];
+} mt_split_sides;
+
 /* What each block of a range found, or will do. */
 typedef struct mt_split_block {
     mt_split_bins bins;
-    box centers[2];
+    mt_split_sides sides;
     mt_index left_count, left, right; /* where its boxes go */
 } mt_split_block;
 
 typedef struct mt_split_work {
+    mt_build_quality quality;
     mt_context *context; /* NULL: no parallel loops, as inside one */
     mt_surface_box *boxes, *scratch;
     mt_split_block *blocks; /* MT_SPLIT_BLOCKS of them, when there is a context */

@@ -26,6 +26,7 @@ mt_status mt_surface_tree_create(mt_context *context, const mt_mesh *mesh, const
         tree->mesh = mesh;
         tree->triangulation = triangulation;
         tree->elements = options && options->elements ? options->elements : MT_SURFACE_TRIANGLES;
+        tree->quality = options ? options->quality : MT_BUILD_BALANCED;
         tree->numbering = mt_surface_number(mesh, triangulation);
         tree->space = mt_ray_space_of(mesh);
         status = fill_tree(context, tree);

@@ -106,6 +106,7 @@ struct mt_surface_tree {
     const mt_triangulation *triangulation;
     mt_ray_space space;
     unsigned elements;
+    mt_build_quality quality;
     mt_surface_numbering numbering;
     mt_index count, left_out;
     mt_index node_count; /* 0 when there are no elements; else node 0 is the root */

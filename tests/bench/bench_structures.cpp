@@ -43,7 +43,8 @@ std::string text_of(const char *format, double number)
 mt_ray_structure *build(mt_context *context, const RayTarget &target, mt_ray_structure_kind kind)
 {
     mt_ray_structure *structure = nullptr;
-    require(context, mt_ray_structure_create(context, target.mesh, &target.triangulation, kind, &structure));
+    require(context,
+            mt_ray_structure_create(context, target.mesh, &target.triangulation, kind, MT_BUILD_BALANCED, &structure));
     return structure;
 }
 

@@ -67,7 +67,8 @@ mt_ray_structure *build(const mt_mesh *mesh, const mt_triangulation *triangulati
 {
     mt_ray_structure *structure = nullptr;
     double begin = now();
-    require(shared_context(), mt_ray_structure_create(shared_context(), mesh, triangulation, kind, &structure));
+    require(shared_context(),
+            mt_ray_structure_create(shared_context(), mesh, triangulation, kind, MT_BUILD_BALANCED, &structure));
     *seconds = now() - begin;
     return structure;
 }

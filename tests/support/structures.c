@@ -4,23 +4,30 @@
 
 #include <string.h>
 
+const char *test_structure_name(int which)
+{
+    return which == TEST_STRUCTURE_FAST ? "aabb, built fast" : mt_ray_structure_name((mt_ray_structure_kind)which);
+}
+
 void test_structures_init(test_structures *structures, mt_context *context, mt_mesh *mesh, mt_ray_profile profile)
 {
     test_target_init(&structures->target, context, mesh, profile);
-    for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+    for (int kind = 0; kind < TEST_STRUCTURE_COUNT; kind++) {
         mt_ray_structure **structure = &structures->all[kind];
+        bool is_fast = kind == TEST_STRUCTURE_FAST;
         assert_int_equal(mt_ray_structure_create(context, mesh, &structures->target.triangulation,
-                                                 (mt_ray_structure_kind)kind, structure),
+                                                 is_fast ? MT_RAY_STRUCTURE_AABB : (mt_ray_structure_kind)kind,
+                                                 is_fast ? MT_BUILD_FAST : MT_BUILD_BALANCED, structure),
                          MT_OK);
         if (mt_ray_structure_validate(context, *structure) != MT_OK) {
-            fail_msg("%s: %s", mt_ray_structure_name((mt_ray_structure_kind)kind), mt_context_error(context)->message);
+            fail_msg("%s: %s", test_structure_name(kind), mt_context_error(context)->message);
         }
     }
 }
 
 void test_structures_end(test_structures *structures)
 {
-    for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+    for (int kind = 0; kind < TEST_STRUCTURE_COUNT; kind++) {
         mt_ray_structure_destroy(structures->target.context, structures->all[kind]);
     }
     test_target_end(&structures->target);
@@ -94,7 +101,7 @@ static void compare_ray(const comparison *job, uint64_t block, const mt_ray *ray
 {
     const test_target *target = &job->structures->target;
     mt_ray_hit expected = expected_hit(job, ray, is_brute);
-    for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+    for (int kind = 0; kind < TEST_STRUCTURE_COUNT; kind++) {
         mt_ray_hit hit;
         if (kind == MT_RAY_STRUCTURE_NONE && !is_brute) {
             continue;
@@ -124,9 +131,9 @@ static void print_difference(const char *mesh, const difference *d)
 {
     print_error("%s, %s: from %.17g %.17g %.17g along %.17g %.17g %.17g: triangle %d at %.17g, expected %d at %.17g, "
                 "any hit: %d\n",
-                mesh, mt_ray_structure_name((mt_ray_structure_kind)d->kind), d->ray.origin.x, d->ray.origin.y,
-                d->ray.origin.z, d->ray.direction.x, d->ray.direction.y, d->ray.direction.z, (int)d->hit.triangle,
-                d->hit.t, (int)d->expected.triangle, d->expected.t, d->any);
+                mesh, test_structure_name(d->kind), d->ray.origin.x, d->ray.origin.y, d->ray.origin.z,
+                d->ray.direction.x, d->ray.direction.y, d->ray.direction.z, (int)d->hit.triangle, d->hit.t,
+                (int)d->expected.triangle, d->expected.t, d->any);
 }
 
 void test_structures_agree(const test_structures *structures, const char *mesh, uint64_t count, uint64_t seed)
@@ -162,16 +169,16 @@ void test_structures_are_tight(const test_structures *structures, const char *me
 {
     const test_target *target = &structures->target;
     test_random random = {count};
-    uint64_t misses[MT_RAY_STRUCTURE_COUNT] = {0}, sum = 0;
+    uint64_t misses[TEST_STRUCTURE_COUNT] = {0}, sum = 0;
     for (uint64_t i = 0; i < count; i++) {
         mt_ray ray = test_probe_ray(target, inside, jitter, 2 * i >= count, i, &random);
-        for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+        for (int kind = 0; kind < TEST_STRUCTURE_COUNT; kind++) {
             misses[kind] += !mt_ray_structure_any_hit(structures->all[kind], &ray, target->profile);
         }
     }
-    for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+    for (int kind = 0; kind < TEST_STRUCTURE_COUNT; kind++) {
         if (misses[kind]) {
-            print_error("%s, %s: %llu of %llu rays leak\n", mesh, mt_ray_structure_name((mt_ray_structure_kind)kind),
+            print_error("%s, %s: %llu of %llu rays leak\n", mesh, test_structure_name(kind),
                         (unsigned long long)misses[kind], (unsigned long long)count);
         }
         sum += misses[kind];

@@ -6,9 +6,14 @@
 
 #include <meshtool/ray_structure.h>
 
+/* One of each kind at the quality that all have, then the tree of boxes at each other quality. */
+#define TEST_STRUCTURE_COUNT (MT_RAY_STRUCTURE_COUNT + 1)
+#define TEST_STRUCTURE_FAST MT_RAY_STRUCTURE_COUNT
+const char *test_structure_name(int which);
+
 typedef struct test_structures {
     test_target target;
-    mt_ray_structure *all[MT_RAY_STRUCTURE_COUNT];
+    mt_ray_structure *all[TEST_STRUCTURE_COUNT];
 } test_structures;
 
 /* Takes the mesh over; checks each structure's invariants. Not to be moved. */

@@ -37,8 +37,9 @@ static void what_is_no_kind_is_refused(void **state)
     mt_triangulation triangulation;
     mt_ray_structure *structure = NULL;
     assert_int_equal(mt_triangulation_init(context, mesh, &triangulation), MT_OK);
-    assert_int_equal(mt_ray_structure_create(context, mesh, &triangulation, MT_RAY_STRUCTURE_COUNT, &structure),
-                     MT_ERROR_ARGUMENT);
+    assert_int_equal(
+        mt_ray_structure_create(context, mesh, &triangulation, MT_RAY_STRUCTURE_COUNT, MT_BUILD_BALANCED, &structure),
+        MT_ERROR_ARGUMENT);
     assert_null(structure);
     mt_ray_structure_destroy(context, NULL);
     mt_triangulation_release(context, &triangulation);
@@ -162,7 +163,7 @@ static void many_equal_triangles_end_in_a_structure(void **state)
     mt_index count = (mt_index)test_ray_count(100000);
     test_structures structures;
     test_structures_init(&structures, context, test_equal_triangles(context, count), MT_RAY_WATERTIGHT);
-    for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+    for (int kind = 0; kind < TEST_STRUCTURE_COUNT; kind++) {
         const mt_ray_structure *structure = structures.all[kind];
         mt_ray ray = mt_ray_make(mt_vec3_make(0.25, 0.25, 1), mt_vec3_make(0, 0, -1));
         mt_ray_hit hit;
@@ -187,7 +188,7 @@ static void a_vertex_of_many_faces_has_a_structure(void **state)
     test_structures structures;
     test_structures_init(&structures, context, test_fan(context, count, true), MT_RAY_WATERTIGHT);
     test_structures_agree(&structures, "fan", 200, 5);
-    for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+    for (int kind = 0; kind < TEST_STRUCTURE_COUNT; kind++) {
         assert_true(mt_ray_structure_size(structures.all[kind]) < 400 * (uint64_t)count + 8192);
     }
     test_structures_end(&structures);
@@ -243,13 +244,13 @@ static void no_ray_leaves_a_closed_mesh(void **state)
 static void threads_change_nothing(void **state)
 {
     (void)state;
-    uint64_t first[2 * MT_RAY_STRUCTURE_COUNT];
+    uint64_t first[2 * TEST_STRUCTURE_COUNT];
     const unsigned threads[] = {1, 2, 7};
     for (size_t i = 0; i < 3; i++) {
         mt_context *context = test_context_with_threads(threads[i]);
         test_structures structures;
-        test_structures_init(&structures, context, test_torus(context, 200, 100, true), MT_RAY_WATERTIGHT);
-        for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
+        test_structures_init(&structures, context, test_torus(context, 350, 100, true), MT_RAY_WATERTIGHT);
+        for (int kind = 0; kind < TEST_STRUCTURE_COUNT; kind++) {
             test_random random = {9};
             uint64_t size = mt_ray_structure_size(structures.all[kind]), hash = 0;
             for (int number = 0; number < (kind == MT_RAY_STRUCTURE_NONE ? 20 : 2000); number++) {
@@ -281,7 +282,8 @@ static void failing_allocations_leave_nothing(void **state)
             mt_context_options options = {.thread_count = 2, .failing_allocation = n};
             mt_context *context = mt_context_create(&options);
             mt_ray_structure *structure;
-            status = mt_ray_structure_create(context, mesh, &triangulation, (mt_ray_structure_kind)kind, &structure);
+            status = mt_ray_structure_create(context, mesh, &triangulation, (mt_ray_structure_kind)kind,
+                                             MT_BUILD_BALANCED, &structure);
             if (status != MT_OK) {
                 assert_int_equal(status, MT_ERROR_OUT_OF_MEMORY);
                 assert_int_equal(mt_context_error(context)->status, status);
@@ -309,8 +311,9 @@ static void sizes_are_those_held(void **state)
     for (int kind = 0; kind < MT_RAY_STRUCTURE_COUNT; kind++) {
         uint64_t before = mt_context_bytes(context);
         mt_ray_structure *structure;
-        assert_int_equal(
-            mt_ray_structure_create(context, mesh, &triangulation, (mt_ray_structure_kind)kind, &structure), MT_OK);
+        assert_int_equal(mt_ray_structure_create(context, mesh, &triangulation, (mt_ray_structure_kind)kind,
+                                                 MT_BUILD_BALANCED, &structure),
+                         MT_OK);
         assert_int_equal(mt_ray_structure_kind_of(structure), kind);
         assert_int_equal(mt_ray_structure_size(structure), mt_context_bytes(context) - before);
         mt_ray_structure_destroy(context, structure);
@@ -342,7 +345,7 @@ static mt_status build_with(mt_ray_structure_kind kind, const mt_mesh *mesh, con
     mt_context *context = mt_context_create(&options);
     mt_ray_structure *structure = NULL;
     assert_non_null(context);
-    mt_status status = mt_ray_structure_create(context, mesh, triangulation, kind, &structure);
+    mt_status status = mt_ray_structure_create(context, mesh, triangulation, kind, MT_BUILD_BALANCED, &structure);
     assert_true((structure != NULL) == (status == MT_OK));
     mt_ray_structure_destroy(context, structure);
     assert_int_equal(mt_context_bytes(context), 0);

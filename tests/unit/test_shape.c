@@ -216,7 +216,9 @@ static void a_fine_torus_is_its_quartic(void **state)
     mt_ray_structure *structure = NULL;
     assert_int_equal(mt_generate(context, "torus", &(mt_generate_options){.resolution = 800}, &mesh), MT_OK);
     assert_int_equal(mt_triangulation_init(context, mesh, &triangulation), MT_OK);
-    assert_int_equal(mt_ray_structure_create(context, mesh, &triangulation, MT_RAY_STRUCTURE_AABB, &structure), MT_OK);
+    assert_int_equal(
+        mt_ray_structure_create(context, mesh, &triangulation, MT_RAY_STRUCTURE_AABB, MT_BUILD_BALANCED, &structure),
+        MT_OK);
     test_random random = {5};
     int hits = 0, differ = 0;
     double worst = 0;

@@ -6,7 +6,7 @@
 #ifndef MESHTOOL_RAY_STRUCTURE_H
 #define MESHTOOL_RAY_STRUCTURE_H
 
-#include <meshtool/ray.h>
+#include <meshtool/surface_tree.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,12 +26,12 @@ typedef struct mt_ray_structure mt_ray_structure;
 /* "aabb", "none", "obb", "grid" or "bsp"; NULL for what is no kind. */
 const char *mt_ray_structure_name(mt_ray_structure_kind kind);
 
-/* Builds the structure over the triangles of a mesh. Mesh and triangulation are borrowed and outlive it. The same for
- * any number of threads. Triangles with a corner that is not finite are left out: nothing hits them. A structure of
- * nothing answers that there is nothing. MT_ERROR_TOO_LARGE past 2^28 triangles, MT_ERROR_OUT_OF_MEMORY, and
- * MT_ERROR_ARGUMENT for what is no kind. */
+/* Builds the structure over the triangles of a mesh; `quality` is heard by the tree of axis-aligned boxes alone. Mesh
+ * and triangulation are borrowed and outlive it. The same for any number of threads. Triangles with a corner that is
+ * not finite are left out: nothing hits them. A structure of nothing answers that there is nothing. MT_ERROR_TOO_LARGE
+ * past 2^28 triangles, MT_ERROR_OUT_OF_MEMORY, and MT_ERROR_ARGUMENT for what is no kind. */
 mt_status mt_ray_structure_create(mt_context *context, const mt_mesh *mesh, const mt_triangulation *triangulation,
-                                  mt_ray_structure_kind kind, mt_ray_structure **out);
+                                  mt_ray_structure_kind kind, mt_build_quality quality, mt_ray_structure **out);
 /* NULL is allowed. */
 void mt_ray_structure_destroy(mt_context *context, mt_ray_structure *structure);
 

@@ -22,8 +22,15 @@ typedef enum mt_surface_elements {
     MT_SURFACE_VERTICES = 8
 } mt_surface_elements;
 
+/* What building may cost to make searching cheap. Answers are the same. */
+typedef enum mt_build_quality {
+    MT_BUILD_BALANCED, /* each box is cut where rays expect the least work */
+    MT_BUILD_FAST      /* in the middle of its longest side: for few rays */
+} mt_build_quality;
+
 typedef struct mt_surface_tree_options {
     unsigned elements; /* of mt_surface_elements; 0: triangles */
+    mt_build_quality quality;
 } mt_surface_tree_options;
 
 typedef struct mt_surface_tree mt_surface_tree;
