@@ -1,5 +1,5 @@
-/* How many bits Draco keeps of a coordinate. Vertices keep their order, so that what a reader gets is held against what
- * was written, vertex by vertex. */
+/* How many bits Draco and glTF keep of a coordinate. Vertices keep their order, so that what a reader gets is held
+ * against what was written, vertex by vertex. */
 #include "tradeoff/reference_surface.h"
 #include "tradeoff/tradeoff.h"
 
@@ -7,36 +7,56 @@
 #include <meshtool/predicates.h>
 #include <meshtool/triangulate.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
-static const char *const levels[] = {"8 bits", "10 bits", "11 bits", "12 bits", "14 bits", "16 bits", "20 bits", NULL};
-static const unsigned bits[] = {8, 10, 11, 12, 14, 16, 20};
+static const char *const levels[] = {"Draco 8 bits",
+                                     "Draco 10 bits",
+                                     "Draco 11 bits",
+                                     "Draco 12 bits",
+                                     "Draco 14 bits",
+                                     "Draco 16 bits",
+                                     "Draco 20 bits",
+                                     "glTF 8 bits",
+                                     "glTF 12 bits",
+                                     "glTF 16 bits",
+                                     NULL};
+static const struct {
+    bool is_draco; /* else KHR_mesh_quantization */
+    unsigned bits;
+} ways[] = {{true, 8},  {true, 10}, {true, 11}, {true, 12},  {true, 14},
+            {true, 16}, {true, 20}, {false, 8}, {false, 12}, {false, 16}};
 
 typedef struct quantization_state {
     mt_mesh *triangles;
     double diagonal;
+    double extent; /* the largest side */
+    double reach;  /* the largest coordinate, without its sign */
     void *bytes;
     size_t size;
 } quantization_state;
 
-static mt_status encode(mt_context *context, const mt_mesh *mesh, unsigned position_bits, void **bytes, size_t *size)
+static double largest_of(mt_vec3 v)
 {
-    mt_mesh_write_options options = {.format = "drc"};
-    options.draco = (mt_draco_options){.compress = true, .position_bits = position_bits, .sequential = true};
-    return mt_mesh_write_memory(context, mesh, &options, bytes, size);
+    return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+}
+
+static const char *reason_against(const mt_mesh *mesh, double reach)
+{
+    return mesh->face_count == 0                       ? "the mesh has no faces"
+           : mt_mesh_bounds(mesh).non_finite_count > 0 ? "some vertices are not finite"
+           : reach > (double)FLT_MAX                   ? "its coordinates are not within single precision"
+                                                       : NULL;
 }
 
 static mt_status prepare(const tradeoff_subject *subject, void **state, const char **why)
 {
     mt_context *context = subject->job->context;
-    const mt_mesh_format *draco = mt_mesh_format_by_extension("drc");
-    if (subject->mesh->face_count == 0 || mt_mesh_bounds(subject->mesh).non_finite_count > 0) {
-        *why = subject->mesh->face_count == 0 ? "the mesh has no faces" : "some vertices are not finite";
-        return MT_OK;
-    }
-    if (!draco || !draco->write || !draco->read) {
-        *why = "this meshtool was built without Draco";
+    mt_bounds bounds = mt_mesh_bounds(subject->mesh);
+    double reach = fmax(largest_of(bounds.minimum), largest_of(bounds.maximum));
+    *why = reason_against(subject->mesh, reach);
+    if (*why) {
         return MT_OK;
     }
     quantization_state *s = mt_allocate_zeroed(context, sizeof *s);
@@ -45,6 +65,8 @@ static mt_status prepare(const tradeoff_subject *subject, void **state, const ch
         return MT_ERROR_OUT_OF_MEMORY;
     }
     s->diagonal = subject->diagonal;
+    s->extent = largest_of(mt_vec3_subtract(bounds.maximum, bounds.minimum));
+    s->reach = reach;
     mt_mesh *bare = NULL; /* seams would have Draco part their vertices */
     mt_status status = tradeoff_bare_mesh(context, subject->mesh, subject->mesh->position_type, &bare);
     if (status == MT_OK) {
@@ -61,10 +83,27 @@ static void release(void *state, mt_context *context)
     mt_free(context, s);
 }
 
+/* What this program, or a file of the kind, does not hold. */
+static const char *refuse(const void *state, size_t level)
+{
+    const quantization_state *s = state;
+    const mt_mesh_format *draco = mt_mesh_format_by_extension("drc");
+    if (ways[level].is_draco) {
+        return draco && draco->write && draco->read ? NULL : "this meshtool was built without Draco";
+    }
+    bool has_steps = s->extent <= (double)FLT_MAX && s->extent / ((1u << ways[level].bits) - 1) >= (double)FLT_MIN;
+    return has_steps || s->extent == 0 ? NULL : "its steps are not within single precision";
+}
+
 static mt_status run(void *state, size_t level, mt_context *context)
 {
     quantization_state *s = state;
-    return encode(context, s->triangles, bits[level], &s->bytes, &s->size);
+    mt_mesh_write_options options = {.format = "glb", .quantize_bits = ways[level].bits};
+    if (ways[level].is_draco) {
+        options = (mt_mesh_write_options){.format = "drc"};
+        options.draco = (mt_draco_options){.compress = true, .position_bits = ways[level].bits, .sequential = true};
+    }
+    return mt_mesh_write_memory(context, s->triangles, &options, &s->bytes, &s->size);
 }
 
 static void discard(void *state, mt_context *context)
@@ -100,11 +139,20 @@ static void count_spoilt(const mt_mesh *before, const mt_mesh *after, mt_index *
     }
 }
 
+/* Half a step on each axis, and what is rounded: by Draco, which computes in single precision; of glTF in double. */
+static double bound_of(const quantization_state *s, size_t level)
+{
+    double epsilon = ways[level].is_draco ? (double)FLT_EPSILON : DBL_EPSILON;
+    double rounded = 2 * epsilon * (s->reach + s->diagonal) + (ways[level].is_draco ? (double)FLT_TRUE_MIN : 0);
+    return sqrt(3) * (0.5 * s->extent / ((1u << ways[level].bits) - 1) + rounded) / s->diagonal;
+}
+
 static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_row *row)
 {
     const quantization_state *s = state;
     mt_mesh *back = NULL;
-    mt_status status = mt_mesh_read_memory(context, "quantised.drc", s->bytes, s->size, NULL, &back, NULL);
+    const char *name = ways[level].is_draco ? "quantised.drc" : "quantised.glb";
+    mt_status status = mt_mesh_read_memory(context, name, s->bytes, s->size, NULL, &back, NULL);
     if (status != MT_OK) {
         return status;
     }
@@ -125,23 +173,22 @@ static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_
     tradeoff_add_error(row, "moved_rms", sqrt(squares / back->vertex_count));
     tradeoff_add_error(row, "flipped_faces", flipped);
     tradeoff_add_error(row, "collapsed_faces", collapsed);
-    /* Half a step on each axis, and what single precision rounds. */
-    double bound = 0.5 * sqrt(3) / ((1u << bits[level]) - 1) + 4e-7;
-    row->is_defect = !is_same || largest > bound;
+    row->is_defect = !is_same || largest > bound_of(s, level);
     snprintf(row->says, sizeof row->says,
-             "vertices move by up to %.2g of the diagonal; %u faces turn over, %u collapse", largest, (unsigned)flipped,
-             (unsigned)collapsed);
+             "%.3g bytes a triangle; vertices move by up to %.2g of the diagonal; %u faces turn over, %u collapse",
+             (double)s->size / s->triangles->face_count, largest, (unsigned)flipped, (unsigned)collapsed);
     mt_mesh_destroy(context, back);
     return MT_OK;
 }
 
 const tradeoff_knob tradeoff_quantization = {
     .name = "quantization",
-    .question = "How many bits of a coordinate does Draco keep?",
+    .question = "How many bits of a coordinate do Draco and glTF keep?",
     .oracle = "what is read back, vertex by vertex",
     .axis = "moved_max",
     .levels = levels,
     .prepare = prepare,
+    .refuse = refuse,
     .run = run,
     .discard = discard,
     .judge = judge,
