@@ -197,28 +197,43 @@ static void draw_point(const panel *p, const tradeoff_row *row)
     }
 }
 
+/* Where a label stands: its ends and its middle height. */
+typedef struct label_place {
+    double left, right, y;
+} label_place;
+
+static bool is_taken(const label_place *places, size_t count, label_place place)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (place.left < places[i].right + 4 && places[i].left < place.right + 4 && fabs(places[i].y - place.y) < 12) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Labels stand to the right of their points, or to the left near the right end; one that would fall onto an earlier one
  * moves up. */
 static void draw_labels(const panel *p)
 {
-    double taken_y[64] = {0}, taken_x[64] = {0};
-    for (size_t i = 0; i < p->row_count && i < 64; i++) {
+    label_place places[64] = {{0}};
+    size_t count = 0;
+    for (size_t i = 0; i < p->row_count && count < 64; i++) {
         const tradeoff_row *row = &p->rows[i];
         char text[64];
         if (isnan(error_of(row))) {
             continue;
         }
         snprintf(text, sizeof text, row->is_knee ? "%s (knee)" : "%s", row->level);
-        double x = place_x(p, row->seconds), y = place_y(p, error_of(row)) - 10;
-        for (size_t moved = 0; moved < p->row_count; moved++) {
-            for (size_t j = 0; j < i; j++) {
-                y -= fabs(taken_x[j] - x) < 70 && fabs(taken_y[j] - y) < 12 ? 13 : 0;
-            }
-        }
-        taken_x[i] = x, taken_y[i] = y;
-        double width = canvas_text_width(p->on, LETTER, text);
+        double x = place_x(p, row->seconds), width = canvas_text_width(p->on, LETTER, text);
         bool fits = x + 9 + width < p->right + RIGHT - 4;
-        canvas_text(p->on, fits ? x + 9 : x - 9, y, LETTER, fits ? PLOT_BEGIN : PLOT_END,
+        label_place place = {fits ? x + 9 : x - 9 - width, fits ? x + 9 + width : x - 9,
+                             place_y(p, error_of(row)) - 10};
+        for (size_t moved = 0; moved < count && is_taken(places, count, place); moved++) {
+            place.y -= 13;
+        }
+        places[count++] = place;
+        canvas_text(p->on, fits ? x + 9 : x - 9, place.y, LETTER, fits ? PLOT_BEGIN : PLOT_END,
                     row->is_knee ? PLOT_ACCENT : PLOT_INK, text);
     }
 }
