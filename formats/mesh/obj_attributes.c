@@ -75,8 +75,6 @@ static void copy_attribute(void *user, uint64_t begin, uint64_t end)
         if (job->attribute->indices) {
             copy_references(job, i);
         }
-        mt_obj_series_release(job->reader->context, &job->reader->blocks[i], job->values);
-        mt_obj_series_release(job->reader->context, &job->reader->blocks[i], job->references);
     }
 }
 
@@ -110,6 +108,8 @@ static mt_status merge_referenced(mt_context *context, attribute_job *job, mt_me
     mt_status status = mt_mesh_add_attribute(context, mesh, layout, &job->attribute);
     if (status == MT_OK) {
         mt_parallel_for(context, blocks, 1, copy_attribute, job);
+        mt_obj_release_series(context, job->reader, job->values);
+        mt_obj_release_series(context, job->reader, job->references);
     }
     return status;
 }

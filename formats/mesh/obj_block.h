@@ -1,6 +1,6 @@
-/* What one block of an OBJ file holds: arrays that grow while it is parsed, and then are copied to their exact size.
- * Faces are numbered within the block, vertices, UVs and normals as the file does; references relative to a running
- * count that is not known yet are listed, to be settled when the blocks before are counted. */
+/* What one block of an OBJ file holds: arrays in a store, which grow while the block is parsed. Faces are numbered within
+ * the block, vertices, UVs and normals as the file does; references relative to a running count that is not known yet
+ * are listed, to be settled when the blocks before are counted. */
 #ifndef MESHTOOL_OBJ_BLOCK_H
 #define MESHTOOL_OBJ_BLOCK_H
 
@@ -65,6 +65,7 @@ typedef struct mt_obj_setting {
 } mt_obj_setting;
 
 typedef struct mt_obj_block {
+    struct mt_obj_store *store; /* that the items lie in */
     void *items[MT_OBJ_SERIES_COUNT];
     size_t counts[MT_OBJ_SERIES_COUNT], capacities[MT_OBJ_SERIES_COUNT];
     mt_index face_count;
@@ -79,22 +80,5 @@ typedef struct mt_obj_block {
 
 /* Bytes of one item. */
 size_t mt_obj_item_size(mt_obj_series series);
-
-/* Makes room for `more` items; false when memory is missing. Records nothing: it is called in parallel. */
-bool mt_obj_reserve_slowly(mt_context *context, mt_obj_block *block, mt_obj_series series, size_t more);
-
-static inline bool mt_obj_reserve(mt_context *context, mt_obj_block *block, mt_obj_series series, size_t more)
-{
-    return block->capacities[series] - block->counts[series] >= more ||
-           mt_obj_reserve_slowly(context, block, series, more);
-}
-
-/* Forgets what the block holds and keeps its memory. */
-void mt_obj_block_clear(mt_obj_block *block);
-void mt_obj_block_release(mt_context *context, mt_obj_block *block);
-/* *copy becomes the same with no byte too many; false when memory is missing, with *copy to be released. */
-bool mt_obj_block_copy(mt_context *context, const mt_obj_block *block, mt_obj_block *copy);
-/* Frees one array. */
-void mt_obj_series_release(mt_context *context, mt_obj_block *block, mt_obj_series series);
 
 #endif

@@ -86,7 +86,6 @@ static void resolve_block(void *user, uint64_t begin, uint64_t end)
         for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
             right &= settle(block, kinds[k].list, kinds[k].series, reader->bases[i].counts[kinds[k].element]);
             right &= all_below(block, kinds[k].series, reader->limits.counts[kinds[k].element], kinds[k].none_allowed);
-            mt_obj_series_release(reader->context, block, kinds[k].list);
         }
         reader->wrong[i] = !right;
     }
@@ -95,6 +94,13 @@ static void resolve_block(void *user, uint64_t begin, uint64_t end)
 void mt_obj_resolve(mt_context *context, mt_obj_reader *reader)
 {
     mt_parallel_for(context, reader->block_count, 1, resolve_block, reader);
+}
+
+void mt_obj_release_series(mt_context *context, mt_obj_reader *reader, mt_obj_series series)
+{
+    for (unsigned i = 0; i < reader->store_count; i++) {
+        mt_obj_store_release_series(context, &reader->stores[i], series);
+    }
 }
 
 /* Sides of every face when all have the same; 0 otherwise, and without faces. */
@@ -129,7 +135,6 @@ static void copy_positions(void *user, uint64_t begin, uint64_t end)
             memcpy((double *)job->mesh->positions + 3 * job->reader->bases[i].counts[MT_OBJ_VERTEX],
                    block->items[MT_OBJ_POSITIONS], size);
         }
-        mt_obj_series_release(job->reader->context, block, MT_OBJ_POSITIONS);
     }
 }
 
@@ -143,7 +148,6 @@ static void write_offsets(const mt_obj_block *block, mt_index *offsets, mt_index
     }
 }
 
-/* Corners stay in the blocks too: UVs and normals compare themselves with them. */
 static void copy_faces(void *user, uint64_t begin, uint64_t end)
 {
     merge_job *job = user;
@@ -157,8 +161,6 @@ static void copy_faces(void *user, uint64_t begin, uint64_t end)
         if (job->mesh->face_offsets) {
             write_offsets(block, job->mesh->face_offsets + job->reader->first_faces[i], first_corner);
         }
-        mt_obj_series_release(job->reader->context, block, MT_OBJ_CORNERS);
-        mt_obj_series_release(job->reader->context, block, MT_OBJ_SIDES);
     }
 }
 
@@ -173,7 +175,10 @@ mt_status mt_obj_merge(mt_context *context, mt_obj_reader *reader, mt_mesh **out
     mt_status status = mt_mesh_create(context, &layout, &job.mesh);
     if (status == MT_OK) {
         mt_parallel_for(context, reader->block_count, 1, copy_positions, &job);
+        mt_obj_release_series(context, reader, MT_OBJ_POSITIONS);
         mt_parallel_for(context, reader->block_count, 1, copy_faces, &job);
+        mt_obj_release_series(context, reader, MT_OBJ_CORNERS);
+        mt_obj_release_series(context, reader, MT_OBJ_SIDES);
         job.mesh->up = MT_UP_Y;
         status = mt_obj_merge_uvs(context, reader, job.mesh);
     }

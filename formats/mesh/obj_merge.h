@@ -9,7 +9,8 @@ typedef struct mt_obj_reader {
     mt_text *text;
     uint64_t block_count;
     mt_obj_block *blocks;  /* what each block of the text holds */
-    mt_obj_block *scratch; /* per slot of the text */
+    mt_obj_store *stores;  /* per slot of the text */
+    unsigned store_count;
     mt_obj_bases *bases;   /* per block; known after mt_obj_count */
     mt_index *first_faces; /* per block */
     mt_index *first_corners;
@@ -26,6 +27,9 @@ void mt_obj_resolve(mt_context *context, mt_obj_reader *reader);
 
 /* Builds the mesh. Arrays of the blocks are freed as they are copied. */
 mt_status mt_obj_merge(mt_context *context, mt_obj_reader *reader, mt_mesh **out);
+
+/* Frees one series of all blocks. */
+void mt_obj_release_series(mt_context *context, mt_obj_reader *reader, mt_obj_series series);
 
 /* Parts of the above. */
 mt_status mt_obj_merge_elements(mt_context *context, mt_obj_reader *reader, mt_mesh *mesh);

@@ -26,8 +26,8 @@ static void *join(mt_context *context, mt_obj_reader *reader, mt_obj_series seri
             memcpy(items + done, reader->blocks[i].items[series], part);
         }
         done += part;
-        mt_obj_series_release(context, &reader->blocks[i], series);
     }
+    mt_obj_release_series(context, reader, series);
     return items;
 }
 

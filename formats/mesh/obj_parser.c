@@ -276,7 +276,6 @@ void mt_obj_parse(mt_context *context, mt_text_block *text, const mt_obj_limits 
                   mt_obj_block *into)
 {
     mt_obj_parser parser = {.context = context, .text = text, .limits = limits, .bases = bases, .block = into};
-    mt_obj_block_clear(into);
     for (const char *at = text->begin; at < text->end;) {
         at = mt_skip_blanks(at);
         if (!mt_is_line_end(*at) && *at != '#') {

@@ -2,7 +2,7 @@
 #ifndef MESHTOOL_OBJ_PARSER_H
 #define MESHTOOL_OBJ_PARSER_H
 
-#include "formats/mesh/obj_block.h"
+#include "formats/mesh/obj_store.h"
 #include "formats/stream/cursor.h"
 #include "formats/stream/text.h"
 
@@ -18,7 +18,7 @@ typedef struct mt_obj_bases {
     uint64_t counts[MT_OBJ_ELEMENT_COUNT];
 } mt_obj_bases;
 
-/* Parses the text into `into`, which is cleared first. A failure is recorded in the text's block. */
+/* Parses the text into `into`, which was begun in a store. A failure is recorded in the text's block. */
 void mt_obj_parse(mt_context *context, mt_text_block *text, const mt_obj_limits *limits, const mt_obj_bases *bases,
                   mt_obj_block *into);
 

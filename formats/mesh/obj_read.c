@@ -1,6 +1,6 @@
 /* Reading OBJ: blocks of whole lines are parsed in parallel, each into arrays of its own; then every element is
  * numbered, references are settled, and the arrays are put together. One pass over the file, linear time; memory:
- * the mesh twice at most, and a block of text and its numbers for each thread. References may point forward, so that
+ * the mesh twice, and for each thread a block of text and what the last pieces of its store have left. References may point forward, so that
  * a wrong one is known at the end only: the file is then read again to find its line. */
 #include "formats/mesh/obj.h"
 
@@ -12,12 +12,11 @@
 static void parse_block(void *user, mt_text_block *text)
 {
     mt_obj_reader *reader = user;
-    mt_obj_block *scratch = &reader->scratch[text->slot];
+    mt_obj_block *block = &reader->blocks[text->number];
     mt_obj_bases bases = {{UNKNOWN_BASE, UNKNOWN_BASE, UNKNOWN_BASE}};
-    mt_obj_parse(reader->context, text, &reader->limits, &bases, scratch);
-    if (!mt_text_failed(text) && !mt_obj_block_copy(reader->context, scratch, &reader->blocks[text->number])) {
-        mt_text_fail(text, MT_ERROR_OUT_OF_MEMORY, NULL, "out of memory while reading");
-    }
+    mt_obj_store_begin(&reader->stores[text->slot], block);
+    mt_obj_parse(reader->context, text, &reader->limits, &bases, block);
+    mt_obj_store_keep(block);
 }
 
 /* Parses again, now that every count is known, the blocks that have a wrong reference. */
@@ -25,8 +24,9 @@ static void parse_block_again(void *user, mt_text_block *text)
 {
     mt_obj_reader *reader = user;
     if (reader->wrong[text->number]) {
-        mt_obj_parse(reader->context, text, &reader->limits, &reader->bases[text->number],
-                     &reader->scratch[text->slot]);
+        mt_obj_block again;
+        mt_obj_store_begin(&reader->stores[text->slot], &again);
+        mt_obj_parse(reader->context, text, &reader->limits, &reader->bases[text->number], &again);
     }
 }
 
@@ -48,12 +48,13 @@ static mt_status create_reader(mt_context *context, mt_obj_reader *reader)
 {
     uint64_t blocks = mt_text_block_count(reader->text);
     reader->blocks = mt_allocate_array_zeroed(context, blocks, sizeof *reader->blocks);
-    reader->scratch = mt_allocate_array_zeroed(context, mt_text_slot_count(reader->text), sizeof *reader->scratch);
+    reader->store_count = mt_text_slot_count(reader->text);
+    reader->stores = mt_allocate_array_zeroed(context, reader->store_count, sizeof *reader->stores);
     reader->bases = mt_allocate_array(context, blocks, sizeof *reader->bases);
     reader->first_faces = mt_allocate_array(context, blocks, sizeof *reader->first_faces);
     reader->first_corners = mt_allocate_array(context, blocks, sizeof *reader->first_corners);
     reader->wrong = mt_allocate_array_zeroed(context, blocks, sizeof *reader->wrong);
-    bool complete = reader->blocks && reader->scratch && reader->bases && reader->first_faces &&
+    bool complete = reader->blocks && reader->stores && reader->bases && reader->first_faces &&
                     reader->first_corners && reader->wrong;
     reader->block_count = complete ? blocks : 0;
     for (int element = 0; element < MT_OBJ_ELEMENT_COUNT; element++) {
@@ -62,20 +63,12 @@ static mt_status create_reader(mt_context *context, mt_obj_reader *reader)
     return complete ? MT_OK : MT_ERROR_OUT_OF_MEMORY;
 }
 
-static void release_scratch(mt_context *context, mt_obj_reader *reader)
-{
-    for (unsigned i = 0; reader->scratch && i < mt_text_slot_count(reader->text); i++) {
-        mt_obj_block_release(context, &reader->scratch[i]);
-    }
-}
-
 static void release_reader(mt_context *context, mt_obj_reader *reader)
 {
-    for (uint64_t i = 0; i < reader->block_count; i++) {
-        mt_obj_block_release(context, &reader->blocks[i]);
+    for (unsigned i = 0; reader->stores && i < reader->store_count; i++) {
+        mt_obj_store_release(context, &reader->stores[i]);
     }
-    release_scratch(context, reader);
-    void *arrays[] = {reader->blocks,      reader->scratch,       reader->bases,
+    void *arrays[] = {reader->blocks,      reader->stores,        reader->bases,
                       reader->first_faces, reader->first_corners, reader->wrong};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) {
         mt_free(context, arrays[i]);
@@ -116,7 +109,6 @@ mt_status mt_obj_read(mt_context *context, mt_input *input, const mt_mesh_read_o
         status = mt_text_parse(context, reader.text, "reading", parse_block, &reader);
     }
     if (status == MT_OK) {
-        release_scratch(context, &reader);
         status = check_statements(context, &reader);
     }
     if (status == MT_OK) {

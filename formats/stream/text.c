@@ -7,7 +7,7 @@
  * large enough for huge pages. So they are large where every thread still has several, and buffers are a small share of
  * the file. Nothing that is read depends on it. */
 #define SMALLEST_BLOCK ((uint64_t)512 << 10)
-#define LARGEST_BLOCK ((uint64_t)4 << 20)
+#define LARGEST_BLOCK ((uint64_t)1 << 20)
 #define BLOCKS_A_THREAD 8
 
 #define WAVE 64 /* blocks between two reports of progress */

@@ -1,0 +1,91 @@
+#include "formats/mesh/obj_store.h"
+
+#include <string.h>
+
+#define PIECE_HEADER 64 /* keeps items aligned to the cache line */
+/* With both headers two huge pages. */
+#define LARGEST_PIECE (((size_t)4 << 20) - PIECE_HEADER - 64)
+#define FIRST_ITEMS 64
+
+struct mt_obj_piece {
+    mt_obj_piece *next;
+};
+
+static char *items_of(mt_obj_piece *piece)
+{
+    return (char *)piece + PIECE_HEADER;
+}
+
+void mt_obj_store_begin(mt_obj_store *store, mt_obj_block *block)
+{
+    *block = (mt_obj_block){.store = store};
+    for (int series = 0; series < MT_OBJ_SERIES_COUNT; series++) {
+        if (store->pieces[series]) {
+            block->items[series] = items_of(store->pieces[series]) + store->used[series];
+            block->capacities[series] =
+                (store->sizes[series] - store->used[series]) / mt_obj_item_size((mt_obj_series)series);
+        }
+    }
+}
+
+void mt_obj_store_keep(const mt_obj_block *block)
+{
+    mt_obj_store *store = block->store;
+    for (int series = 0; series < MT_OBJ_SERIES_COUNT; series++) {
+        store->used[series] += block->counts[series] * mt_obj_item_size((mt_obj_series)series);
+    }
+}
+
+/* Pieces double up to the largest; a block that needs more than that doubles alone. */
+static size_t next_size(const mt_obj_store *store, mt_obj_series series, size_t held, size_t needed)
+{
+    size_t size = 2 * store->sizes[series];
+    size = size < LARGEST_PIECE ? size : LARGEST_PIECE;
+    size_t first = FIRST_ITEMS * mt_obj_item_size(series);
+    size = size > first ? size : first;
+    size = size > 2 * held ? size : 2 * held;
+    return size > needed ? size : needed;
+}
+
+bool mt_obj_reserve_slowly(mt_context *context, mt_obj_block *block, mt_obj_series series, size_t more)
+{
+    mt_obj_store *store = block->store;
+    size_t item = mt_obj_item_size(series), held = block->counts[series] * item;
+    size_t size = next_size(store, series, held, held + more * item);
+    mt_obj_piece *piece = mt_try_allocate(context, PIECE_HEADER + (uint64_t)size);
+    if (!piece) {
+        return false;
+    }
+    mt_obj_piece *before = store->pieces[series];
+    if (held > 0) {
+        memcpy(items_of(piece), block->items[series], held);
+    }
+    piece->next = before;
+    if (before && store->used[series] == 0) {
+        piece->next = before->next;
+        mt_free(context, before);
+    }
+    store->pieces[series] = piece;
+    store->used[series] = 0;
+    store->sizes[series] = size;
+    block->items[series] = items_of(piece);
+    block->capacities[series] = size / item;
+    return true;
+}
+
+void mt_obj_store_release_series(mt_context *context, mt_obj_store *store, mt_obj_series series)
+{
+    while (store->pieces[series]) {
+        mt_obj_piece *piece = store->pieces[series];
+        store->pieces[series] = piece->next;
+        mt_free(context, piece);
+    }
+    store->used[series] = store->sizes[series] = 0;
+}
+
+void mt_obj_store_release(mt_context *context, mt_obj_store *store)
+{
+    for (int series = 0; series < MT_OBJ_SERIES_COUNT; series++) {
+        mt_obj_store_release_series(context, store, (mt_obj_series)series);
+    }
+}
