@@ -9,6 +9,8 @@ typedef struct ply_faces {
     mt_index *vertices; /* of the corners so far */
     uint64_t corner_count, corner_room;
     uint64_t record_begin; /* the first corner of the record being read */
+    uint64_t sides;        /* not 0: of every face, and the vertices are a part of the mesh's own array */
+    bool differs;          /* a face has other sides than that */
 
     bool has_uvs;
     mt_type uv_type;        /* MT_F32 or MT_F64 */

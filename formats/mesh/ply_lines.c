@@ -88,24 +88,37 @@ static bool read_number(ply_line *l, const ply_property *property, double *numbe
     return true;
 }
 
-/* A vertex number below the count of vertices. */
-static bool read_index(ply_line *l, const ply_property *property, mt_index *index)
+static bool fail_index(ply_line *l, const ply_property *property)
 {
     const char *stop;
-    l->at = mt_skip_blanks(l->at);
-    uint64_t number = mt_scan_unsigned(l->at, &stop);
+    mt_scan_unsigned(l->at, &stop);
     if (stop == l->at || !mt_is_space(*stop)) {
         return fail_word(l, property, "the number of a vertex, from 0");
     }
-    if (number >= l->plan->mesh->vertex_count) {
-        mt_text_fail(l->block, MT_ERROR_SYNTAX, l->at,
-                     "%s %llu names vertex %.*s, but the %lu vertices are numbered from 0", element_of(l)->name,
-                     (unsigned long long)l->record, word_length(l->at), l->at,
-                     (unsigned long)l->plan->mesh->vertex_count);
-        return false;
+    mt_text_fail(l->block, MT_ERROR_SYNTAX, l->at,
+                 "%s %llu names vertex %.*s, but the %lu vertices are numbered from 0", element_of(l)->name,
+                 (unsigned long long)l->record, word_length(l->at), l->at,
+                 (unsigned long)l->plan->mesh->vertex_count);
+    return false;
+}
+
+/* `count` numbers of vertices, below the count of vertices. The place stays in a register from one to the next. */
+static bool read_indices(ply_line *l, const ply_property *property, mt_index *indices, uint64_t count)
+{
+    const char *at = l->at;
+    mt_index vertices = l->plan->mesh->vertex_count;
+    for (uint64_t i = 0; i < count; i++) {
+        const char *stop;
+        at = mt_skip_blanks(at);
+        uint64_t number = mt_scan_unsigned(at, &stop);
+        if (stop == at || !mt_is_space(*stop) || number >= vertices) {
+            l->at = at;
+            return fail_index(l, property);
+        }
+        indices[i] = (mt_index)number;
+        at = stop;
     }
-    *index = (mt_index)number;
-    l->at = stop;
+    l->at = at;
     return true;
 }
 
@@ -121,7 +134,7 @@ static bool read_scalar(ply_line *l, const ply_property *property, const ply_tar
     }
     void *value = target->values + l->record * target->stride;
     if (l->element == l->plan->edges) {
-        return read_index(l, property, value);
+        return read_indices(l, property, value, 1);
     }
     double number;
     if (!read_number(l, property, &number)) {
@@ -150,13 +163,18 @@ static bool read_length(ply_line *l, const ply_property *property, uint64_t *len
 static bool read_vertices(ply_line *l, const ply_property *property, uint64_t count)
 {
     ply_faces *faces = l->faces;
-    if (!mt_ply_faces_reserve(l->context, faces, count, 0)) {
+    if (faces->sides && count != faces->sides) {
+        faces->differs = true;
+        mt_text_fail(l->block, MT_ERROR_SYNTAX, l->at, "a face of other sides than the first");
+        return false;
+    }
+    /* Room for all, if the others have as many corners, each of which takes two bytes. */
+    uint64_t all = l->face_count * count, most = (uint64_t)(l->block->end - l->block->begin) / 2;
+    if (!mt_ply_faces_reserve(l->context, faces, count, all < most ? all : most)) {
         return fail_memory(l);
     }
-    for (uint64_t i = 0; i < count; i++) {
-        if (!read_index(l, property, &faces->vertices[faces->corner_count + i])) {
-            return false;
-        }
+    if (!read_indices(l, property, faces->vertices + faces->corner_count, count)) {
+        return false;
     }
     faces->corner_count += count;
     return true;
@@ -207,7 +225,9 @@ static bool end_face(ply_line *l, const char *begin)
         mt_text_fail(l->block, MT_ERROR_SYNTAX, begin, "face %llu %s", (unsigned long long)l->record, wrong);
         return false;
     }
-    l->plan->mesh->face_offsets[l->record + 1] = (mt_index)l->faces->corner_count; /* within the block for now */
+    if (!l->faces->sides) {
+        l->plan->mesh->face_offsets[l->record + 1] = (mt_index)l->faces->corner_count; /* within the block for now */
+    }
     return true;
 }
 

@@ -1,10 +1,12 @@
 /* A record is one line. The lines of every block are counted first, so that each block knows which records it holds;
- * then all are parsed in parallel. Faces are gathered by block and joined at the end, everything else goes to its place
- * at once. */
+ * then all are parsed in parallel, and everything goes to its place at once. Faces do as long as each has as many sides
+ * as the first; where one has not, all is parsed again, and the faces are gathered by block and joined at the end. */
 #include "formats/mesh/ply_body.h"
 #include "formats/mesh/ply_lines.h"
 #include "formats/stream/cursor.h"
 #include "formats/stream/text.h"
+
+#include <meshtool/checked.h>
 
 typedef struct ascii_reader {
     mt_context *context;
@@ -15,6 +17,8 @@ typedef struct ascii_reader {
     uint64_t *block_lines;   /* per block its first line, and one more: all lines */
     ply_faces *parts;        /* per block */
     mt_index *overflows;     /* per block the numbers that are infinite as float */
+    uint64_t sides;          /* of the first face */
+    bool differs;            /* another one has others */
 } ascii_reader;
 
 static void count_lines(void *user, mt_text_block *block)
@@ -23,15 +27,29 @@ static void count_lines(void *user, mt_text_block *block)
     r->block_lines[block->number] = mt_text_count_telling_lines(block->begin, block->end, 0);
 }
 
+/* How many of a block's lines are faces. */
+static uint64_t faces_within(const ascii_reader *r, uint64_t block)
+{
+    if (r->plan->mesh->face_count == 0) {
+        return 0;
+    }
+    uint64_t first = r->element_lines[r->plan->faces], last = r->element_lines[r->plan->faces + 1];
+    uint64_t begin = r->block_lines[block] < first ? first : r->block_lines[block];
+    uint64_t end = r->block_lines[block + 1] < last ? r->block_lines[block + 1] : last;
+    return begin < end ? end - begin : 0;
+}
+
 static void parse_block(void *user, mt_text_block *block)
 {
     const ascii_reader *r = user;
     const uint64_t *starts = r->element_lines;
     uint64_t line = r->block_lines[block->number], end = starts[r->plan->header.element_count];
+    r->overflows[block->number] = 0;
     ply_line l = {.context = r->context,
                   .plan = r->plan,
                   .block = block,
                   .faces = &r->parts[block->number],
+                  .face_count = faces_within(r, block->number),
                   .overflows = &r->overflows[block->number],
                   .at = block->begin};
     while (l.at < block->end && line < end) {
@@ -62,6 +80,23 @@ static void sum_up(uint64_t *counts, uint64_t count)
     counts[count] = sum;
 }
 
+/* Every block's part of the mesh's corners, or of none. */
+static void lend_corners(ascii_reader *r, mt_index *corners, uint64_t sides)
+{
+    uint64_t face = 0;
+    for (uint64_t i = 0; i < mt_text_block_count(r->text); i++) {
+        uint64_t count = faces_within(r, i);
+        bool differs = r->parts[i].differs;
+        r->parts[i] = (ply_faces){.vertices = corners ? corners + sides * face : NULL,
+                                  .corner_room = corners ? sides * count : 0,
+                                  .has_uvs = r->plan->has_corner_uvs,
+                                  .uv_type = r->plan->corner_uv_type,
+                                  .sides = sides};
+        r->differs |= differs;
+        face += count;
+    }
+}
+
 static mt_status prepare(ascii_reader *r)
 {
     const ply_header *header = &r->plan->header;
@@ -78,10 +113,7 @@ static mt_status prepare(ascii_reader *r)
         r->element_lines[i] = element->property_count ? element->count : 0; /* a record of nothing is a blank line */
     }
     sum_up(r->element_lines, header->element_count);
-    for (uint64_t i = 0; i < blocks; i++) {
-        r->parts[i].has_uvs = r->plan->has_corner_uvs;
-        r->parts[i].uv_type = r->plan->corner_uv_type;
-    }
+    lend_corners(r, NULL, 0);
     return MT_OK;
 }
 
@@ -105,6 +137,87 @@ static mt_status check_line_count(ascii_reader *r)
         r->context, MT_ERROR_SYNTAX, place, "the file ends after %llu of the %llu records of element \"%.80s\"",
         (unsigned long long)(lines - r->element_lines[element]),
         (unsigned long long)r->plan->header.elements[element].count, r->plan->header.elements[element].name);
+}
+
+/* The length of the list of vertices in the line; 0 where it is not told at once. */
+static uint64_t scan_sides(const ply_plan *plan, const char *at)
+{
+    const ply_element *faces = &plan->header.elements[plan->faces];
+    for (uint32_t i = 0; i < faces->property_count; i++) {
+        const char *stop;
+        at = mt_skip_blanks(at);
+        if (plan->targets[plan->faces][i].use == PLY_FACE_VERTICES) {
+            return mt_scan_unsigned(at, &stop);
+        }
+        if (faces->properties[i].is_list) {
+            return 0;
+        }
+        at = mt_skip_word(at);
+    }
+    return 0;
+}
+
+static void look_at_first_face(void *user, mt_text_block *block)
+{
+    ascii_reader *r = user;
+    uint64_t line = r->block_lines[block->number], first = r->element_lines[r->plan->faces];
+    for (const char *at = block->begin; at < block->end; at = mt_skip_line_end(mt_find_line_end(at), block->end)) {
+        at = mt_skip_blanks(at);
+        if (!mt_is_line_end(*at) && line++ == first) {
+            r->sides = scan_sides(r->plan, at);
+            return;
+        }
+    }
+}
+
+/* Finds out the sides of the first face, where all may go straight to their places: the text is long enough for them,
+ * two bytes a corner. */
+static mt_status find_sides(ascii_reader *r)
+{
+    uint64_t blocks = mt_text_block_count(r->text), block = 0, corners;
+    if (r->plan->mesh->face_count == 0 || r->plan->has_corner_uvs) {
+        return MT_OK;
+    }
+    while (block < blocks && r->block_lines[block + 1] <= r->element_lines[r->plan->faces]) {
+        block++;
+    }
+    mt_status status = mt_text_parse_some(r->context, r->text, "reading PLY", block, block < blocks ? block + 1 : block,
+                                          look_at_first_face, r);
+    if (r->sides < 3 || !mt_checked_multiply(r->sides, r->plan->mesh->face_count, &corners) ||
+        corners > mt_text_size(r->text) / 2 || !mt_count_fits(corners)) {
+        r->sides = 0;
+    }
+    return status;
+}
+
+/* Reads all as if every face were like the first. *done is false when one is not, or the first is of no use. */
+static mt_status read_uniform(ascii_reader *r, bool *done)
+{
+    mt_mesh *mesh = r->plan->mesh;
+    *done = false;
+    mt_status status = find_sides(r);
+    if (status != MT_OK || r->sides == 0) {
+        return status;
+    }
+    mesh->corner_vertices = mt_allocate_array(r->context, r->sides * mesh->face_count, sizeof *mesh->corner_vertices);
+    if (!mesh->corner_vertices) {
+        return MT_ERROR_OUT_OF_MEMORY;
+    }
+    lend_corners(r, mesh->corner_vertices, r->sides);
+    status = mt_text_parse(r->context, r->text, "reading PLY", parse_block, r);
+    lend_corners(r, NULL, 0);
+    if (r->differs) {
+        mt_context_clear_error(r->context);
+        mt_free(r->context, mesh->corner_vertices);
+        mesh->corner_vertices = NULL;
+        return MT_OK;
+    }
+    mesh->corner_count = (mt_index)(r->sides * mesh->face_count);
+    mesh->face_size = (mt_index)r->sides;
+    mt_free(r->context, mesh->face_offsets);
+    mesh->face_offsets = NULL;
+    *done = true;
+    return status;
 }
 
 /* Joins the faces of all blocks; offsets within a block become offsets in the mesh. */
@@ -134,15 +247,19 @@ static mt_status join_faces(ascii_reader *r)
 static mt_status read_text(ascii_reader *r)
 {
     uint64_t blocks = mt_text_block_count(r->text);
+    bool uniform = false;
     mt_status status = mt_text_parse(r->context, r->text, "reading PLY", count_lines, r);
     if (status == MT_OK) {
         sum_up(r->block_lines, blocks);
+        status = read_uniform(r, &uniform);
+    }
+    if (status == MT_OK && !uniform) {
         status = mt_text_parse(r->context, r->text, "reading PLY", parse_block, r);
     }
     if (status == MT_OK) {
         status = check_line_count(r);
     }
-    if (status == MT_OK) {
+    if (status == MT_OK && !uniform) {
         status = join_faces(r);
     }
     uint64_t overflows = 0;

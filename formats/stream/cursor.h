@@ -115,6 +115,16 @@ static inline double mt_decimal_value(uint64_t mantissa, unsigned places)
     return mt_decimal_quotient(mantissa, places);
 }
 
+/* Signs come in no order that a branch could foresee. */
+static inline double mt_with_sign(double magnitude, bool negative)
+{
+    uint64_t bits;
+    memcpy(&bits, &magnitude, sizeof bits);
+    bits |= (uint64_t)negative << 63;
+    memcpy(&magnitude, &bits, sizeof bits);
+    return magnitude;
+}
+
 /* As mt_number_parse, quicker for plain decimals of up to 19 digits. */
 static inline mt_number_result mt_scan_number(const char *begin, const char *end, double *number, const char **stop)
 {
@@ -145,10 +155,33 @@ static inline mt_number_result mt_scan_number(const char *begin, const char *end
     if (whole + places - 1 >= 19 || !mt_is_space(*at)) {
         return mt_number_parse(begin, end, number, stop);
     }
-    double value = mt_decimal_value(mantissa, (unsigned)places);
-    *number = negative ? -value : value;
+    *number = mt_with_sign(mt_decimal_value(mantissa, (unsigned)places), negative);
     *stop = at;
     return MT_NUMBER_OK;
+}
+
+/* begin + count by a branch: numbers that follow one another have as many digits, and what follows the number need then
+ * not wait until they are counted. */
+static inline const char *mt_foresee_end(const char *begin, unsigned count)
+{
+    switch (count) {
+    case 1:
+        return begin + 1;
+    case 2:
+        return begin + 2;
+    case 3:
+        return begin + 3;
+    case 4:
+        return begin + 4;
+    case 5:
+        return begin + 5;
+    case 6:
+        return begin + 6;
+    case 7:
+        return begin + 7;
+    default:
+        return begin + 8;
+    }
 }
 
 /* An unsigned decimal number; one of 19 digits and more gives UINT64_MAX. *stop is begin when there is no digit. */
@@ -161,7 +194,7 @@ static inline uint64_t mt_scan_unsigned(const char *begin, const char **stop)
         return 0;
     }
     uint64_t value = mt_digits_value(bytes, count);
-    const char *at = begin + count;
+    const char *at = mt_foresee_end(begin, count);
     if (count == 8) {
         while (mt_is_digit(*at)) {
             value = at - begin < 18 ? 10 * value + (uint64_t)(*at - '0') : UINT64_MAX;
