@@ -149,6 +149,10 @@ const char *mt_off_scan_face(mt_off_reader *reader, mt_text_block *block, const 
     if (sides < 3) {
         return fail_sides(block, line, sides);
     }
+    if (reader->sides && sides != reader->sides) {
+        reader->blocks[block->number].differs = true;
+        return fail_sides(block, line, sides);
+    }
     for (mt_index side = 0; side < sides; side++) {
         const char *stop;
         at = mt_skip_blanks(at);

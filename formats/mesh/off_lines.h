@@ -9,6 +9,7 @@ typedef struct mt_off_block {
     uint64_t line_count;
     uint64_t first_corner, corner_count;
     mt_index fewest_sides, most_sides; /* of its faces; fewest > most when it has none */
+    bool differs;                      /* a face has other sides than the reader's */
     mt_off_colors vertex_colors, face_colors;
 } mt_off_block;
 
@@ -19,6 +20,7 @@ typedef struct mt_off_reader {
     uint64_t block_count;
     mt_off_block *blocks;
     mt_mesh *mesh;
+    mt_index sides; /* not 0: of every face, as far as is known */
     double *normals, *uvs;
 } mt_off_reader;
 

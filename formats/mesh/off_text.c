@@ -1,10 +1,13 @@
-/* Reading OFF as text. A vertex is a line and a face is a line. Three passes over blocks of lines, each in parallel:
- * the first counts the lines that say something, so that every block knows which elements it holds; the second looks
- * at the sides of the faces, so that it knows which corners; the third puts all numbers where they belong. Linear
- * time; memory: the mesh, and colours twice. */
+/* Reading OFF as text. A vertex is a line and a face is a line. Passes over blocks of lines, each in parallel: the first
+ * counts the lines that say something, so that every block knows which elements it holds; the last puts all numbers
+ * where they belong. Which corners a block holds is known where every face has the sides of the first. Where that turns
+ * out wrong, a pass looks at the sides of all, and the last is run again. Linear time; memory: the mesh, and colours
+ * twice. */
 #include "formats/mesh/off_lines.h"
 
 #include "formats/stream/input.h"
+
+#include <meshtool/checked.h>
 
 /* Where the body begins in the block. */
 static const char *body_begin(const mt_off_reader *reader, const mt_text_block *block)
@@ -106,12 +109,111 @@ static mt_status number_lines(mt_off_reader *reader)
     return MT_OK;
 }
 
+static mt_status create_mesh(mt_off_reader *reader, const mt_mesh_layout *layout)
+{
+    mt_status status = mt_mesh_create(reader->context, layout, &reader->mesh);
+    if (status == MT_OK) {
+        status = mt_off_add_attributes(reader->context, reader->mesh, &reader->header, MT_F64);
+    }
+    if (status == MT_OK) {
+        const mt_attribute *normals = mt_mesh_find_attribute(reader->mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX);
+        const mt_attribute *uvs = mt_mesh_find_attribute(reader->mesh, MT_SEMANTIC_UV, MT_DOMAIN_VERTEX);
+        reader->normals = normals ? normals->values : NULL;
+        reader->uvs = uvs ? uvs->values : NULL;
+    }
+    return status;
+}
+
+static mt_mesh_layout layout_of(const mt_off_header *header)
+{
+    return (mt_mesh_layout){
+        .vertex_count = header->vertex_count, .face_count = header->face_count, .position_type = MT_F64};
+}
+
+static void look_at_first_face(void *user, mt_text_block *block)
+{
+    mt_off_reader *reader = user;
+    const char *stop, *begin = body_begin(reader, block);
+    uint64_t before = reader->header.vertex_count - reader->blocks[block->number].first_line;
+    reader->sides = mt_off_scan_sides(mt_off_next_line(skip_lines(begin, block->end, before), block->end), &stop);
+}
+
+/* The block that the first face begins in. */
+static uint64_t first_face_block(const mt_off_reader *reader)
+{
+    uint64_t first = 0;
+    while (first < reader->block_count &&
+           reader->blocks[first].first_line + reader->blocks[first].line_count <= reader->header.vertex_count) {
+        first++;
+    }
+    return first;
+}
+
+/* Finds out the sides of the first face, where the text is long enough for as many of all, two bytes a corner. */
+static mt_status find_sides(mt_off_reader *reader)
+{
+    uint64_t block = first_face_block(reader), corners;
+    if (block == reader->block_count || reader->header.face_count == 0) {
+        return MT_OK;
+    }
+    mt_status status = mt_text_parse_some(reader->context, reader->text, "counting", block, block + 1,
+                                          look_at_first_face, reader);
+    if (reader->sides < 3 || !mt_checked_multiply(reader->sides, reader->header.face_count, &corners) ||
+        corners > mt_text_size(reader->text) / 2) {
+        reader->sides = 0;
+    }
+    return status;
+}
+
+/* Whether a block met a face of other sides; forgets it, and the colours that it kept. */
+static bool forget_differing(mt_off_reader *reader)
+{
+    bool differs = false;
+    for (uint64_t i = 0; i < reader->block_count; i++) {
+        differs |= reader->blocks[i].differs;
+    }
+    for (uint64_t i = 0; differs && i < reader->block_count; i++) {
+        mt_off_release_colors(reader->context, &reader->blocks[i].vertex_colors);
+        mt_off_release_colors(reader->context, &reader->blocks[i].face_colors);
+    }
+    return differs;
+}
+
+/* Reads all as if every face had the sides of the first. *done is false when one has not. */
+static mt_status read_uniform(mt_off_reader *reader, bool *done)
+{
+    *done = false;
+    mt_status status = find_sides(reader);
+    if (status != MT_OK || reader->sides == 0) {
+        return status;
+    }
+    mt_mesh_layout layout = layout_of(&reader->header);
+    layout.face_size = reader->sides;
+    layout.corner_count = layout.face_count * reader->sides;
+    for (uint64_t i = 0; i < reader->block_count; i++) {
+        uint64_t line = reader->blocks[i].first_line, vertices = layout.vertex_count;
+        reader->blocks[i].first_corner = line < vertices ? 0 : (line - vertices) * reader->sides;
+    }
+    status = create_mesh(reader, &layout);
+    if (status == MT_OK) {
+        status = mt_text_parse(reader->context, reader->text, "reading", parse_block, reader);
+        *done = !forget_differing(reader);
+    }
+    if (status != MT_OK && !*done && reader->mesh) {
+        mt_context_clear_error(reader->context);
+        mt_mesh_destroy(reader->context, reader->mesh);
+        reader->mesh = NULL;
+        status = MT_OK;
+    }
+    reader->sides = 0;
+    return status;
+}
+
 /* Makes the mesh for the faces that were looked at. */
-static mt_status create_mesh(mt_off_reader *reader)
+static mt_status create_mixed_mesh(mt_off_reader *reader)
 {
     mt_index fewest = MT_NONE, most = 0;
-    mt_mesh_layout layout = {
-        .vertex_count = reader->header.vertex_count, .face_count = reader->header.face_count, .position_type = MT_F64};
+    mt_mesh_layout layout = layout_of(&reader->header);
     for (uint64_t i = 0; i < reader->block_count; i++) {
         mt_off_block *block = &reader->blocks[i];
         block->first_corner = layout.corner_count;
@@ -120,8 +222,18 @@ static mt_status create_mesh(mt_off_reader *reader)
         most = block->most_sides > most ? block->most_sides : most;
     }
     layout.face_size = layout.face_count == 0 ? 3 : fewest == most ? most : 0;
-    mt_status status = mt_mesh_create(reader->context, &layout, &reader->mesh);
-    return status == MT_OK ? mt_off_add_attributes(reader->context, reader->mesh, &reader->header, MT_F64) : status;
+    return create_mesh(reader, &layout);
+}
+
+/* Looks at the sides of all faces first. */
+static mt_status read_mixed(mt_off_reader *reader)
+{
+    mt_status status = mt_text_parse_some(reader->context, reader->text, "counting", first_face_block(reader),
+                                          reader->block_count, look_at_faces, reader);
+    if (status == MT_OK) {
+        status = create_mixed_mesh(reader);
+    }
+    return status == MT_OK ? mt_text_parse(reader->context, reader->text, "reading", parse_block, reader) : status;
 }
 
 static mt_status finish_colors(mt_off_reader *reader, bool of_faces)
@@ -153,24 +265,12 @@ static mt_status read_body(mt_context *context, mt_off_reader *reader)
     if (status == MT_OK) {
         status = number_lines(reader);
     }
+    bool uniform = false;
     if (status == MT_OK) {
-        uint64_t first = 0;
-        while (first < reader->block_count &&
-               reader->blocks[first].first_line + reader->blocks[first].line_count <= reader->header.vertex_count) {
-            first++;
-        }
-        status =
-            mt_text_parse_some(context, reader->text, "counting", first, reader->block_count, look_at_faces, reader);
+        status = read_uniform(reader, &uniform);
     }
-    if (status == MT_OK) {
-        status = create_mesh(reader);
-    }
-    if (status == MT_OK) {
-        const mt_attribute *normals = mt_mesh_find_attribute(reader->mesh, MT_SEMANTIC_NORMAL, MT_DOMAIN_VERTEX);
-        const mt_attribute *uvs = mt_mesh_find_attribute(reader->mesh, MT_SEMANTIC_UV, MT_DOMAIN_VERTEX);
-        reader->normals = normals ? normals->values : NULL;
-        reader->uvs = uvs ? uvs->values : NULL;
-        status = mt_text_parse(context, reader->text, "reading", parse_block, reader);
+    if (status == MT_OK && !uniform) {
+        status = read_mixed(reader);
     }
     if (status == MT_OK) {
         status = finish_colors(reader, false);
