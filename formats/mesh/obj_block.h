@@ -1,6 +1,6 @@
-/* What one block of an OBJ file holds: arrays in a store, which grow while the block is parsed. Faces are numbered within
- * the block, vertices, UVs and normals as the file does; references relative to a running count that is not known yet
- * are listed, to be settled when the blocks before are counted. */
+/* What one block of an OBJ file holds: arrays in a store, which grow while the block is parsed. Faces are numbered
+ * within the block, vertices, UVs and normals as the file does; references relative to a running count that is not
+ * known yet are listed, to be settled when the blocks before are counted. */
 #ifndef MESHTOOL_OBJ_BLOCK_H
 #define MESHTOOL_OBJ_BLOCK_H
 

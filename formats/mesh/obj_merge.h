@@ -8,8 +8,8 @@ typedef struct mt_obj_reader {
     mt_context *context;
     mt_text *text;
     uint64_t block_count;
-    mt_obj_block *blocks;  /* what each block of the text holds */
-    mt_obj_store *stores;  /* per slot of the text */
+    mt_obj_block *blocks; /* what each block of the text holds */
+    mt_obj_store *stores; /* per slot of the text */
     unsigned store_count;
     mt_obj_bases *bases;   /* per block; known after mt_obj_count */
     mt_index *first_faces; /* per block */

@@ -1,7 +1,7 @@
 /* Reading OBJ: blocks of whole lines are parsed in parallel, each into arrays of its own; then every element is
  * numbered, references are settled, and the arrays are put together. One pass over the file, linear time; memory:
- * the mesh twice, and for each thread a block of text and what the last pieces of its store have left. References may point forward, so that
- * a wrong one is known at the end only: the file is then read again to find its line. */
+ * the mesh twice, and for each thread a block of text and what the last pieces of its store have left. References may
+ * point forward, so that a wrong one is known at the end only: the file is then read again to find its line. */
 #include "formats/mesh/obj.h"
 
 #include "formats/mesh/obj_merge.h"
@@ -54,8 +54,8 @@ static mt_status create_reader(mt_context *context, mt_obj_reader *reader)
     reader->first_faces = mt_allocate_array(context, blocks, sizeof *reader->first_faces);
     reader->first_corners = mt_allocate_array(context, blocks, sizeof *reader->first_corners);
     reader->wrong = mt_allocate_array_zeroed(context, blocks, sizeof *reader->wrong);
-    bool complete = reader->blocks && reader->stores && reader->bases && reader->first_faces &&
-                    reader->first_corners && reader->wrong;
+    bool complete = reader->blocks && reader->stores && reader->bases && reader->first_faces && reader->first_corners &&
+                    reader->wrong;
     reader->block_count = complete ? blocks : 0;
     for (int element = 0; element < MT_OBJ_ELEMENT_COUNT; element++) {
         reader->limits.counts[element] = MT_INDEX_MAX;

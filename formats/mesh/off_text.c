@@ -1,8 +1,8 @@
-/* Reading OFF as text. A vertex is a line and a face is a line. Passes over blocks of lines, each in parallel: the first
- * counts the lines that say something, so that every block knows which elements it holds; the last puts all numbers
- * where they belong. Which corners a block holds is known where every face has the sides of the first. Where that turns
- * out wrong, a pass looks at the sides of all, and the last is run again. Linear time; memory: the mesh, and colours
- * twice. */
+/* Reading OFF as text. A vertex is a line and a face is a line. Passes over blocks of lines, each in parallel: the
+ * first counts the lines that say something, so that every block knows which elements it holds; the last puts all
+ * numbers where they belong. Which corners a block holds is known where every face has the sides of the first. Where
+ * that turns out wrong, a pass looks at the sides of all, and the last is run again. Linear time; memory: the mesh, and
+ * colours twice. */
 #include "formats/mesh/off_lines.h"
 
 #include "formats/stream/input.h"
@@ -156,8 +156,8 @@ static mt_status find_sides(mt_off_reader *reader)
     if (block == reader->block_count || reader->header.face_count == 0) {
         return MT_OK;
     }
-    mt_status status = mt_text_parse_some(reader->context, reader->text, "counting", block, block + 1,
-                                          look_at_first_face, reader);
+    mt_status status =
+        mt_text_parse_some(reader->context, reader->text, "counting", block, block + 1, look_at_first_face, reader);
     if (reader->sides < 3 || !mt_checked_multiply(reader->sides, reader->header.face_count, &corners) ||
         corners > mt_text_size(reader->text) / 2) {
         reader->sides = 0;

@@ -97,8 +97,7 @@ static bool fail_index(ply_line *l, const ply_property *property)
     }
     mt_text_fail(l->block, MT_ERROR_SYNTAX, l->at,
                  "%s %llu names vertex %.*s, but the %lu vertices are numbered from 0", element_of(l)->name,
-                 (unsigned long long)l->record, word_length(l->at), l->at,
-                 (unsigned long)l->plan->mesh->vertex_count);
+                 (unsigned long long)l->record, word_length(l->at), l->at, (unsigned long)l->plan->mesh->vertex_count);
     return false;
 }
 

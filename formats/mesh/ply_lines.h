@@ -18,8 +18,8 @@ typedef struct ply_line {
 } ply_line;
 
 /* Reads the record that begins at line->at into its places, and a face also into `faces`; face_offsets then ends where
- * the face ends in `faces`, unless all have the same sides. Leaves line->at in the line. False: mt_text_fail was called. May be called inside a
- * parallel body. */
+ * the face ends in `faces`, unless all have the same sides. Leaves line->at in the line. False: mt_text_fail was
+ * called. May be called inside a parallel body. */
 bool mt_ply_read_line(ply_line *line);
 
 #endif
