@@ -199,6 +199,7 @@ static mt_status read_uniform(ascii_reader *r, bool *done)
     if (status != MT_OK || r->sides == 0) {
         return status;
     }
+    mt_free(r->context, mesh->corner_vertices); /* of a mesh that has none */
     mesh->corner_vertices = mt_allocate_array(r->context, r->sides * mesh->face_count, sizeof *mesh->corner_vertices);
     if (!mesh->corner_vertices) {
         return MT_ERROR_OUT_OF_MEMORY;
