@@ -3,8 +3,8 @@
 #include <string.h>
 
 #define PIECE_HEADER 64 /* keeps items aligned to the cache line */
-/* With both headers two huge pages. */
-#define LARGEST_PIECE (((size_t)4 << 20) - PIECE_HEADER - 64)
+/* With both headers a huge page. */
+#define LARGEST_PIECE (((size_t)2 << 20) - PIECE_HEADER - 64)
 #define FIRST_ITEMS 64
 
 struct mt_obj_piece {
@@ -32,14 +32,17 @@ void mt_obj_store_keep(const mt_obj_block *block)
 {
     mt_obj_store *store = block->store;
     for (int series = 0; series < MT_OBJ_SERIES_COUNT; series++) {
-        store->used[series] += block->counts[series] * mt_obj_item_size((mt_obj_series)series);
+        size_t size = block->counts[series] * mt_obj_item_size((mt_obj_series)series);
+        store->used[series] += size;
+        store->kept[series] += size;
     }
 }
 
-/* Pieces double up to the largest; a block that needs more than that doubles alone. */
+/* Pieces grow with what is kept, so that the last has little of it to waste, up to the largest; a block that needs more
+ * than that doubles alone. */
 static size_t next_size(const mt_obj_store *store, mt_obj_series series, size_t held, size_t needed)
 {
-    size_t size = 2 * store->sizes[series];
+    size_t size = store->kept[series] / 2;
     size = size < LARGEST_PIECE ? size : LARGEST_PIECE;
     size_t first = FIRST_ITEMS * mt_obj_item_size(series);
     size = size > first ? size : first;
@@ -80,7 +83,7 @@ void mt_obj_store_release_series(mt_context *context, mt_obj_store *store, mt_ob
         store->pieces[series] = piece->next;
         mt_free(context, piece);
     }
-    store->used[series] = store->sizes[series] = 0;
+    store->used[series] = store->sizes[series] = store->kept[series] = 0;
 }
 
 void mt_obj_store_release(mt_context *context, mt_obj_store *store)

@@ -12,6 +12,7 @@ typedef struct mt_obj_store {
     mt_obj_piece *pieces[MT_OBJ_SERIES_COUNT]; /* the newest first, which is the one that is filled */
     size_t used[MT_OBJ_SERIES_COUNT];          /* bytes of the newest that blocks have kept */
     size_t sizes[MT_OBJ_SERIES_COUNT];         /* bytes that it has room for */
+    size_t kept[MT_OBJ_SERIES_COUNT];          /* bytes of blocks in all pieces */
 } mt_obj_store;
 
 /* Makes *block an empty one that fills the room which is left. Until it is kept no other block may be begun. */

@@ -26,7 +26,7 @@ typedef struct mt_text_block {
 typedef struct mt_text_options {
     bool continuations;    /* a backslash at the end of a line keeps the next one in the same block */
     uint64_t lines_before; /* lines that were consumed before, for messages */
-    size_t block_size;     /* 0: 512 KB to 4 MB, by the file's size and the threads; the smallest is 16 */
+    size_t block_size;     /* 0: 512 KB to 1 MB, by the file's size and the threads; the smallest is 16 */
     /* Whether a block may begin with this line (bytes up to its line end); NULL: with any. The first block begins
      * where the text does. */
     bool (*may_begin)(const char *line, const char *end);
