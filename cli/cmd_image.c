@@ -1,6 +1,7 @@
 /* meshtool image: pictures from one format to another, with operations on the way. */
 #include "files.h"
 #include "image_chain.h"
+#include "image_loss.h"
 #include "message.h"
 
 #include <string.h>
@@ -113,6 +114,9 @@ static const cli_option options[] = {
      .minimum = 1,
      .maximum = 100,
      .help = "of a JPEG, 1 to 100; 90 by default"},
+    {.name = "strict-loss",
+     .offset = offsetof(image_settings, common.strict_loss),
+     .help = "fail rather than write fewer bits than IN has, or clip what is outside 0 to 1"},
     {0},
 };
 
@@ -155,7 +159,8 @@ static json_t *describe(const cli_job *job, const mt_image *image, const mt_imag
     return object;
 }
 
-static cli_exit process(const cli_job *job, const char *path)
+static cli_exit process(const cli_job *job, const char *path, const mt_image_format *written,
+                        const mt_image_write_options *how)
 {
     const image_settings *settings = job->settings;
     mt_image *image = NULL;
@@ -165,11 +170,18 @@ static cli_exit process(const cli_job *job, const char *path)
     if (code == CLI_EXIT_DONE) {
         code = cli_chain_apply(job, &settings->chain, &image);
     }
+    cli_image_loss loss = {.format = written, .bits_before = code == CLI_EXIT_DONE ? source.bits : 0};
     if (code == CLI_EXIT_DONE) {
-        mt_image_write_options how = {.bits = settings->bits, .quality = settings->quality};
-        code = cli_write_image_as(job, image, path, &how);
+        code = cli_image_loss_find(job, image, path, how, &loss);
+    }
+    if (code == CLI_EXIT_DONE) {
+        code = cli_write_image_as(job, image, path, how);
+    }
+    if (code == CLI_EXIT_DONE) {
+        cli_image_loss_warn(job, path, &loss);
     }
     if (code == CLI_EXIT_DONE && job->common->json) {
+        cli_json_set(object, "lost", cli_image_loss_json(&loss));
         cli_json_set(object, "output", cli_json_text(path));
         cli_json_print_line(object);
     }
@@ -180,8 +192,11 @@ static cli_exit process(const cli_job *job, const char *path)
 
 static cli_exit run(const cli_job *job)
 {
+    const image_settings *settings = job->settings;
     const char *path = NULL;
     const mt_image_format *written = NULL;
+    mt_image_write_options how = {.bits = settings->bits, .quality = settings->quality};
+    unsigned bits;
     cli_exit code = cli_output_operand(job, &path);
     if (code == CLI_EXIT_DONE) {
         code = check_input(job);
@@ -189,7 +204,10 @@ static cli_exit run(const cli_job *job)
     if (code == CLI_EXIT_DONE) {
         code = cli_check_image_output(job, path, &written);
     }
-    return code == CLI_EXIT_DONE ? process(job, path) : code;
+    if (code == CLI_EXIT_DONE && mt_image_written_bits(job->context, written, &how, &bits) != MT_OK) {
+        code = cli_report_failure(job, path);
+    }
+    return code == CLI_EXIT_DONE ? process(job, path, written, &how) : code;
 }
 
 const cli_command cli_image_command = {
@@ -198,7 +216,8 @@ const cli_command cli_image_command = {
     .summary = "Change pictures: Bayer patterns, hue, saturation, grey, alpha; and their format",
     .description =
         "The operations happen in the order given, and may be repeated. They act on the numbers that the file "
-        "holds, unless --linear comes before them. The format goes by OUT's extension, or by --to.",
+        "holds, unless --linear comes before them. The format goes by OUT's extension, or by --to. Bits that are "
+        "lost and numbers that are clipped are said.",
     .examples = "  meshtool image photo.jpg grey.png --gray\n"
                 "  meshtool image raw.pgm photo.png --demosaic RGGB --bits 16\n"
                 "  meshtool image logo.png logo.jpg --over 255,255,255 --quality 95\n"

@@ -3,6 +3,7 @@
 #include "formats/stream/output.h"
 #include "formats/stream/path.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -91,6 +92,47 @@ const char *mt_image_format_left_out(const char *extension)
     return NULL;
 }
 
+static bool has_bits(const mt_image_format *format, unsigned bits)
+{
+    bool found = false;
+    for (size_t i = 0; i < sizeof format->bits / sizeof format->bits[0]; i++) {
+        found = found || format->bits[i] == bits;
+    }
+    return found;
+}
+
+static mt_status fail_bits(mt_context *context, const mt_image_format *format, unsigned bits)
+{
+    char known[32] = "";
+    size_t room = sizeof format->bits / sizeof format->bits[0], length = 0;
+    for (size_t i = 0; i < room && format->bits[i]; i++) {
+        bool last = i + 1 == room || !format->bits[i + 1];
+        length += (size_t)snprintf(known + length, sizeof known - length, "%s%u",
+                                   i == 0 ? ""
+                                   : last ? " or "
+                                          : ", ",
+                                   format->bits[i]);
+    }
+    return mt_fail(context, MT_ERROR_ARGUMENT, "%s is written with %s bits a channel, not %u", format->title, known,
+                   bits);
+}
+
+mt_status mt_image_written_bits(mt_context *context, const mt_image_format *format,
+                                const mt_image_write_options *options, unsigned *bits)
+{
+    unsigned quality = options ? options->quality : 0;
+    *bits = options && options->bits ? options->bits : has_bits(format, 8) ? 8 : format->bits[0];
+    if (!has_bits(format, *bits)) {
+        return fail_bits(context, format, *bits);
+    }
+    if (quality > 0 && !format->has_quality) {
+        return mt_fail(context, MT_ERROR_ARGUMENT, "%s has no quality to choose", format->title);
+    }
+    return quality > 100
+               ? mt_fail(context, MT_ERROR_ARGUMENT, "the quality of a %s is 1 to 100, not %u", format->title, quality)
+               : MT_OK;
+}
+
 /* Writes all bytes; when that fails the output is gone. */
 static mt_status write_or_abandon(mt_context *context, const mt_image_format *format, const mt_image *image,
                                   const mt_image_write_options *options, mt_output *output)
@@ -110,7 +152,11 @@ mt_status mt_image_write_file(mt_context *context, const mt_image *image, const 
         return MT_ERROR_ARGUMENT;
     }
     mt_output *output = NULL;
-    mt_status status = mt_output_open(context, path, options && options->no_clobber, &output);
+    unsigned bits;
+    mt_status status = mt_image_written_bits(context, format, options, &bits);
+    if (status == MT_OK) {
+        status = mt_output_open(context, path, options && options->no_clobber, &output);
+    }
     if (status != MT_OK) {
         return status;
     }
@@ -128,7 +174,11 @@ mt_status mt_image_write_memory(mt_context *context, const mt_image *image, cons
         return MT_ERROR_ARGUMENT;
     }
     mt_output *output = NULL;
-    mt_status status = mt_output_open_memory(context, &output);
+    unsigned bits;
+    mt_status status = mt_image_written_bits(context, format, options, &bits);
+    if (status == MT_OK) {
+        status = mt_output_open_memory(context, &output);
+    }
     if (status != MT_OK) {
         return status;
     }

@@ -126,14 +126,8 @@ static mt_status write_with(jpeg_writer *writer, const mt_image *image, int qual
     return status;
 }
 
-static mt_status check_request(mt_context *context, const mt_image *image, const mt_image_write_options *options)
+static mt_status check_request(mt_context *context, const mt_image *image)
 {
-    if (options && options->bits && options->bits != 8) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "JPEG holds 8 bits a channel, not %u", options->bits);
-    }
-    if (options && options->quality > 100) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "the quality of a JPEG is 1 to 100, not %u", options->quality);
-    }
     if (image->channel_count == 4) {
         return mt_fail(context, MT_ERROR_UNSUPPORTED,
                        "JPEG holds no transparency: write .png or .tiff, or give a background");
@@ -145,7 +139,7 @@ static mt_status write_jpeg(mt_context *context, const mt_image *image, const mt
                             mt_output *output)
 {
     uint64_t held = ENCODER_BYTES + (uint64_t)image->width * image->channel_count * 64;
-    mt_status status = check_request(context, image, options);
+    mt_status status = check_request(context, image);
     if (status == MT_OK) {
         status = mt_hold_bytes(context, held);
     }
@@ -170,6 +164,8 @@ static const char *const extensions[] = {"jpg", "jpeg", NULL};
 const mt_image_format mt_jpeg_format = {.name = "jpeg",
                                         .title = "JPEG",
                                         .extensions = extensions,
+                                        .bits = {8},
+                                        .has_quality = true,
                                         .sniff = mt_jpeg_sniff,
                                         .read = mt_jpeg_read,
                                         .write = write_jpeg};

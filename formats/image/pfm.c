@@ -43,6 +43,7 @@ static const char *const extensions[] = {"pfm", NULL};
 const mt_image_format mt_pfm_format = {.name = "pfm",
                                        .title = "Portable float map",
                                        .extensions = extensions,
+                                       .bits = {32},
                                        .sniff = mt_pfm_sniff,
                                        .read = mt_pfm_read,
                                        .write = write_pfm};

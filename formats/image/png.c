@@ -265,9 +265,6 @@ static mt_status write_png(mt_context *context, const mt_image *image, const mt_
                            mt_output *output)
 {
     unsigned bits = options && options->bits ? options->bits : 8;
-    if (bits != 8 && bits != 16) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "PNG holds 8 or 16 bits a channel, not %u", bits);
-    }
     mt_image_encoder *encoder = NULL;
     mt_status status = mt_image_encoder_create(context, image, bits, &encoder);
     if (status == MT_OK) {
@@ -284,6 +281,7 @@ const mt_image_format mt_png_format = {.name = "png",
                                        .title = "Portable Network Graphics",
                                        .extensions = extensions,
                                        .holds_alpha = true,
+                                       .bits = {8, 16},
                                        .sniff = mt_png_sniff,
                                        .read = mt_png_read,
                                        .write = write_png};

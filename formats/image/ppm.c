@@ -19,25 +19,13 @@ static mt_status write_body(mt_context *context, const mt_image *image, unsigned
     return mt_image_write_bands(context, image, bits, write_rows, &writer);
 }
 
-static mt_status get_bits(mt_context *context, const mt_image_write_options *options, unsigned *out)
-{
-    *out = options && options->bits ? options->bits : 8;
-    if (*out != 8 && *out != 16) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "netpbm pictures hold 8 or 16 bits a channel, not %u", *out);
-    }
-    return MT_OK;
-}
-
 /* P5 and P6 have the same header. */
 static mt_status write_plain(mt_context *context, const mt_image *image, const mt_image_write_options *options,
                              mt_output *output)
 {
-    unsigned bits = 0;
-    mt_status status = get_bits(context, options, &bits);
-    if (status == MT_OK) {
-        status = mt_output_format(context, output, "P%c\n%u %u\n%u\n", image->channel_count == 1 ? '5' : '6',
-                                  image->width, image->height, (1u << bits) - 1u);
-    }
+    unsigned bits = options && options->bits ? options->bits : 8;
+    mt_status status = mt_output_format(context, output, "P%c\n%u %u\n%u\n", image->channel_count == 1 ? '5' : '6',
+                                        image->width, image->height, (1u << bits) - 1u);
     return status == MT_OK ? write_body(context, image, bits, output) : status;
 }
 
@@ -55,7 +43,8 @@ static mt_status write_pgm(mt_context *context, const mt_image *image, const mt_
                            mt_output *output)
 {
     if (image->channel_count != 1) {
-        return mt_fail(context, MT_ERROR_UNSUPPORTED, "PGM holds grey pictures only: write .ppm, .pam or .png");
+        return mt_fail(context, MT_ERROR_UNSUPPORTED,
+                       "PGM holds grey pictures only: make it grey, or write .ppm, .pam or .png");
     }
     return write_plain(context, image, options, output);
 }
@@ -64,13 +53,10 @@ static mt_status write_pam(mt_context *context, const mt_image *image, const mt_
                            mt_output *output)
 {
     static const char *const kinds[] = {"", "GRAYSCALE", "", "RGB", "RGB_ALPHA"};
-    unsigned bits = 0;
-    mt_status status = get_bits(context, options, &bits);
-    if (status == MT_OK) {
-        status = mt_output_format(context, output,
-                                  "P7\nWIDTH %u\nHEIGHT %u\nDEPTH %u\nMAXVAL %u\nTUPLTYPE %s\nENDHDR\n", image->width,
-                                  image->height, image->channel_count, (1u << bits) - 1u, kinds[image->channel_count]);
-    }
+    unsigned bits = options && options->bits ? options->bits : 8;
+    mt_status status = mt_output_format(
+        context, output, "P7\nWIDTH %u\nHEIGHT %u\nDEPTH %u\nMAXVAL %u\nTUPLTYPE %s\nENDHDR\n", image->width,
+        image->height, image->channel_count, (1u << bits) - 1u, kinds[image->channel_count]);
     return status == MT_OK ? write_body(context, image, bits, output) : status;
 }
 
@@ -96,11 +82,10 @@ static mt_status write_pbm(mt_context *context, const mt_image *image, const mt_
                            mt_output *output)
 {
     if (image->channel_count != 1) {
-        return mt_fail(context, MT_ERROR_UNSUPPORTED, "PBM holds grey pictures only: write .ppm, .pam or .png");
+        return mt_fail(context, MT_ERROR_UNSUPPORTED,
+                       "PBM holds grey pictures only: make it grey, or write .ppm, .pam or .png");
     }
-    if (options && options->bits > 1) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "PBM holds 1 bit a pixel, not %u", options->bits);
-    }
+    (void)options;
     rows_writer writer = {output, image->width};
     mt_status status = mt_output_format(context, output, "P4\n%u %u\n", image->width, image->height);
     return status == MT_OK ? mt_image_write_bands(context, image, 8, write_bits, &writer) : status;
@@ -114,12 +99,14 @@ static const char *const pam_extensions[] = {"pam", NULL};
 const mt_image_format mt_ppm_format = {.name = "ppm",
                                        .title = "Portable pixmap",
                                        .extensions = ppm_extensions,
+                                       .bits = {8, 16},
                                        .sniff = mt_ppm_sniff,
                                        .read = mt_netpbm_read,
                                        .write = write_ppm};
 const mt_image_format mt_pgm_format = {.name = "pgm",
                                        .title = "Portable graymap",
                                        .extensions = pgm_extensions,
+                                       .bits = {8, 16},
                                        .sniff = mt_pgm_sniff,
                                        .read = mt_netpbm_read,
                                        .write = write_pgm};
@@ -127,12 +114,14 @@ const mt_image_format mt_pam_format = {.name = "pam",
                                        .title = "Portable arbitrary map",
                                        .extensions = pam_extensions,
                                        .holds_alpha = true,
+                                       .bits = {8, 16},
                                        .sniff = mt_pam_sniff,
                                        .read = mt_netpbm_read,
                                        .write = write_pam};
 const mt_image_format mt_pbm_format = {.name = "pbm",
                                        .title = "Portable bitmap",
                                        .extensions = pbm_extensions,
+                                       .bits = {1},
                                        .sniff = mt_pbm_sniff,
                                        .read = mt_netpbm_read,
                                        .write = write_pbm};

@@ -131,9 +131,6 @@ static mt_status compose(tiff_writer *writer, const mt_image *image)
 
 static mt_status check_request(mt_context *context, const mt_image *image, unsigned bits)
 {
-    if (bits != 1 && bits != 8 && bits != 16 && bits != 32) {
-        return mt_fail(context, MT_ERROR_ARGUMENT, "TIFF is written with 1, 8, 16 or 32 bits a channel, not %u", bits);
-    }
     if (bits == 1 && image->channel_count != 1) {
         return mt_fail(context, MT_ERROR_UNSUPPORTED, "pictures of 1 bit are grey, and this one has %u channels",
                        image->channel_count);
@@ -170,6 +167,7 @@ const mt_image_format mt_tiff_format = {.name = "tiff",
                                         .title = "Tagged Image File Format",
                                         .extensions = extensions,
                                         .holds_alpha = true,
+                                        .bits = {1, 8, 16, 32},
                                         .sniff = mt_tiff_sniff,
                                         .read = mt_tiff_read,
                                         .write = write_tiff};

@@ -47,3 +47,13 @@ void mt_image_destroy(mt_context *context, mt_image *image)
         mt_free(context, image);
     }
 }
+
+uint64_t mt_image_count_outside(const mt_image *image, unsigned bits)
+{
+    double half = 0.5 / (double)((1ull << bits) - 1);
+    uint64_t count = 0, end = (uint64_t)image->width * image->height * image->channel_count;
+    for (uint64_t i = 0; i < end; i++) {
+        count += !(image->pixels[i] >= -half && image->pixels[i] <= 1 + half);
+    }
+    return count;
+}

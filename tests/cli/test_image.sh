@@ -100,9 +100,32 @@ says "at most 64 operations"
 run 4 image "$folder/missing.png" "$folder/none.png"
 run 4 image "$folder/four.ppm" "$folder/four.ppm" --no-clobber
 
+# What is lost is said, refused when asked, and 8 bits from 8 are no loss.
+run 0 image "$folder/four.ppm" "$folder/out.png" --hue-shift 77 --json
+prints '"lost": []'
+run 0 image "$folder/four.ppm" "$folder/fine.png" --bits 16
+run 0 image "$folder/fine.png" "$folder/out.jpg"
+says "out.jpg: JPEG of 8 bits cannot hold samples of 16 bits; this is lost"
+run 0 image "$folder/fine.png" "$folder/out.png" --json
+says "this is lost (--bits goes up to 16)"
+prints '"lost": ["samples of 16 bits"]'
+run 0 image "$folder/fine.png" "$folder/out.pfm" --strict-loss
+printf 'Pf\n4 1\n-1.0\n\0\0\0\077\0\0\0\100\0\0\300\177\0\0\200\077' >"$folder/bright.pfm" # 0.5, 2, nan, 1
+run 3 image "$folder/bright.pfm" "$folder/none.tiff" --bits 16 --strict-loss
+says "none.tiff: Tagged Image File Format of 16 bits cannot hold floats of 32 bits and 2 samples outside 0 to 1 (clipped), and no loss is allowed"
+holds "nothing is written" test ! -e "$folder/none.tiff"
+run 0 image "$folder/bright.pfm" "$folder/out.tiff" --bits 32 --strict-loss
+# What a format has not is wrong usage, before anything is read.
+run 2 image "$folder/missing.png" "$folder/out.tiff" --quality 50
+says "Tagged Image File Format has no quality"
+run 2 image "$folder/missing.png" "$folder/out.pfm" --bits 16
+says "is written with 32 bits a channel, not 16"
+run 2 image "$folder/missing.png" "$folder/out.png" --bits 32
+says "is written with 8 or 16 bits a channel, not 32"
+
 # JSON.
 run 0 image "$folder/four.ppm" "$folder/out.png" --hue-shift 30 --gray --json
-prints "{\"file\": \"$folder/four.ppm\", \"format\": \"ppm\", \"width\": 2, \"height\": 2, \"channels\": 3, \"bits\": 8, \"operations\": [\"hue-shift 30\", \"gray\"], \"output\": \"$folder/out.png\"}"
+prints "{\"file\": \"$folder/four.ppm\", \"format\": \"ppm\", \"width\": 2, \"height\": 2, \"channels\": 3, \"bits\": 8, \"operations\": [\"hue-shift 30\", \"gray\"], \"lost\": [], \"output\": \"$folder/out.png\"}"
 run 0 image "$folder/out.png" - --to pgm
 run 2 image "$folder/out.png" - --to pgm --json
 run 0 formats --json

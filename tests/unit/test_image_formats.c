@@ -80,10 +80,15 @@ static void what_a_format_cannot_hold_is_refused(void **state)
         unsigned bits;
         mt_status status;
         const char *says;
-    } rows[] = {
-        {"x.ppm", 4, 8, MT_ERROR_UNSUPPORTED, "transparency"}, {"x.pfm", 4, 8, MT_ERROR_UNSUPPORTED, "transparency"},
-        {"x.pgm", 3, 8, MT_ERROR_UNSUPPORTED, "grey"},         {"x.ppm", 3, 12, MT_ERROR_ARGUMENT, "12"},
-        {"x.gif", 3, 8, MT_ERROR_ARGUMENT, "\"gif\""},         {"folder.ppm/x", 3, 8, MT_ERROR_ARGUMENT, "extension"}};
+    } rows[] = {{"x.ppm", 4, 8, MT_ERROR_UNSUPPORTED, "transparency"},
+                {"x.pfm", 4, 0, MT_ERROR_UNSUPPORTED, "transparency"},
+                {"x.pgm", 3, 8, MT_ERROR_UNSUPPORTED, "grey"},
+                {"x.ppm", 3, 12, MT_ERROR_ARGUMENT, "12"},
+                {"x.pfm", 3, 8, MT_ERROR_ARGUMENT, "with 32 bits"},
+                {"x.png", 3, 32, MT_ERROR_ARGUMENT, "8 or 16 bits"},
+                {"x.tiff", 3, 2, MT_ERROR_ARGUMENT, "1, 8, 16 or 32 bits"},
+                {"x.gif", 3, 8, MT_ERROR_ARGUMENT, "\"gif\""},
+                {"folder.ppm/x", 3, 8, MT_ERROR_ARGUMENT, "extension"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         mt_context *context = test_context();
         test_random random = {1};

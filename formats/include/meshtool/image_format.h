@@ -19,8 +19,8 @@ typedef struct mt_image_read_options {
 /* All zeros means the defaults. */
 typedef struct mt_image_write_options {
     const char *format; /* an extension that overrides the path's; NULL: the path's, "png" for pipes */
-    unsigned bits;      /* per channel: 8 (default) or 16 where the format has them; TIFF also 1, and 32: floats */
-    unsigned quality;   /* of JPEG, 1 to 100; 0: 90 */
+    unsigned bits;      /* per channel, one of the format's; 0: 8 where it has them, else what it has */
+    unsigned quality;   /* of JPEG, 1 to 100; 0: 90; other formats have none, and take 0 alone */
     bool no_clobber;
 } mt_image_write_options;
 
@@ -29,6 +29,8 @@ typedef struct mt_image_format {
     const char *title;
     const char *const *extensions; /* NULL-terminated, the first is preferred */
     bool holds_alpha;
+    bool has_quality;
+    unsigned bits[4]; /* of a channel, that may be written; 32 are floats; zeros follow the last */
     /* How sure the first bytes make it: 0 not this format, 100 certain. */
     int (*sniff)(const uint8_t *bytes, size_t size);
     /* *bits receives those of a sample in the file. On failure what *out holds is the caller's to destroy. */
@@ -45,6 +47,11 @@ const mt_image_format *mt_image_format_by_extension(const char *extension);
  * MT_ERROR_ARGUMENT recorded when it is unknown. */
 const mt_image_format *mt_image_format_for_output(mt_context *context, const char *path,
                                                   const mt_image_write_options *options);
+
+/* How many bits a channel are written; options may be NULL. MT_ERROR_ARGUMENT, which lists those that there are, when the
+ * format has none of that size, and for a quality where it has none. */
+mt_status mt_image_written_bits(mt_context *context, const mt_image_format *format,
+                                const mt_image_write_options *options, unsigned *bits);
 
 /* What a picture was read from. */
 typedef struct mt_image_source {

@@ -57,6 +57,9 @@ void mt_image_encode_row(const mt_image_encoder *encoder, uint32_t row, unsigned
 void mt_image_encode_rows(mt_context *context, const mt_image_encoder *encoder, uint32_t first, uint32_t count,
                           unsigned char *bytes);
 
+/* Samples that integers of so many bits cannot come near: farther than half a step outside [0, 1], or NaN. */
+uint64_t mt_image_count_outside(const mt_image *image, unsigned bits);
+
 #ifdef __cplusplus
 }
 #endif
