@@ -27,31 +27,37 @@ static strip_state state_of(unsigned number)
     return s;
 }
 
-static bool is_triangle(const mt_mesh *mesh, mt_index face, unsigned a, unsigned b, unsigned c)
+/* For each three vertices in turn the triangles that they are, a bit each. */
+typedef struct triangle_bits {
+    unsigned of[VERTICES][VERTICES][VERTICES];
+} triangle_bits;
+
+static void list_bits(const mt_mesh *mesh, triangle_bits *bits)
 {
-    const mt_index *v = mesh->corner_vertices + 3 * (size_t)face;
-    return (v[0] == a && v[1] == b && v[2] == c) || (v[1] == a && v[2] == b && v[0] == c) ||
-           (v[2] == a && v[0] == b && v[1] == c);
+    memset(bits, 0, sizeof *bits);
+    for (mt_index face = 0; face < mesh->face_count; face++) {
+        const mt_index *v = mesh->corner_vertices + 3 * (size_t)face;
+        for (int turn = 0; turn < 3; turn++) {
+            bits->of[v[turn]][v[(turn + 1) % 3]][v[(turn + 2) % 3]] |= 1u << face;
+        }
+    }
 }
 
 /* Appends a vertex; false when that draws what must not be drawn. */
-static bool append(const mt_mesh *mesh, strip_state *s, unsigned vertex)
+static bool append(const triangle_bits *bits, strip_state *s, unsigned vertex)
 {
-    unsigned a = s->odd ? s->last : s->before, b = s->odd ? s->before : s->last;
+    unsigned a = s->odd ? s->last : s->before, b = s->odd ? s->before : s->last, left = 0;
     bool draws = s->before < VERTICES && a != b && b != vertex && vertex != a;
-    bool known = false;
-    for (mt_index face = 0; face < mesh->face_count && draws && !known; face++) {
-        if (!(s->drawn >> face & 1u) && is_triangle(mesh, face, a, b, vertex)) {
-            s->drawn |= 1u << face;
-            known = true;
-        }
+    if (draws) {
+        left = bits->of[a][b][vertex] & ~s->drawn;
+        s->drawn |= left & -left;
     }
     if (s->before < VERTICES) {
         s->odd = 1 - s->odd;
     }
     s->before = s->last;
     s->last = vertex;
-    return !draws || known;
+    return !draws || left;
 }
 
 /* Every state is reached first by the fewest steps. */
@@ -59,6 +65,8 @@ uint64_t test_strip_optimum(const mt_mesh *mesh)
 {
     unsigned *queue = malloc(STATES * sizeof *queue), *steps = malloc(STATES * sizeof *steps);
     assert_true(queue && steps && mesh->face_count <= TEST_FEW && mesh->vertex_count <= VERTICES);
+    triangle_bits bits;
+    list_bits(mesh, &bits);
     memset(steps, 0xff, STATES * sizeof *steps);
     const strip_state start = {0, VERTICES, VERTICES, 0};
     size_t head = 0, tail = 0;
@@ -71,14 +79,14 @@ uint64_t test_strip_optimum(const mt_mesh *mesh)
         if (from.drawn == (1u << mesh->face_count) - 1) {
             optimum = steps[number];
         }
-        for (unsigned vertex = 0; vertex <= VERTICES; vertex++) { /* the last one is the restart */
+        for (unsigned vertex = 0; vertex <= mesh->vertex_count; vertex++) { /* the last one is the restart */
             strip_state to = from;
             bool allowed = true;
-            if (vertex == VERTICES) {
+            if (vertex == mesh->vertex_count) {
                 to = start;
                 to.drawn = from.drawn;
             } else {
-                allowed = append(mesh, &to, vertex);
+                allowed = append(&bits, &to, vertex);
             }
             if (allowed && steps[number_of(to)] == UINT32_MAX) {
                 steps[number_of(to)] = steps[number] + 1;

@@ -34,7 +34,8 @@ floor_of() {
     if [[ -z $floor ]]; then
         sources=("$root"/lib/*/"$header".c)
         if [[ ${#sources[@]} == 1 && -e ${sources[0]} ]]; then
-            floor=$(basename "$(dirname "${sources[0]}")")
+            floor=${sources[0]%/*}
+            floor=${floor##*/}
         fi
     fi
 }
@@ -43,7 +44,7 @@ floor_of() {
 check_include() {
     local root=$1 file=$2 place=$2:$3 included=$4 own header target
     case $file in
-    lib/include/meshtool/*.h) floor_of "$root" "$(basename "$file" .h)"; own=$floor ;;
+    lib/include/meshtool/*.h) header=${file##*/}; floor_of "$root" "${header%.h}"; own=$floor ;;
     lib/*/*) own=${file#lib/}; own=${own%%/*} ;;
     formats/*) own=formats ;;
     cli/*) own=cli ;;
@@ -109,7 +110,8 @@ check_folders() {
     local root=$1 folder name
     for folder in "$root"/lib/*/ "$root"/formats/*/; do
         [[ -d $folder ]] || continue
-        name=$(basename "$folder")
+        name=${folder%/}
+        name=${name##*/}
         case $folder in
         */include/) ;;
         */lib/*) [[ -n ${rank[$name]-} ]] || complain "lib/$name: not a floor; list it in tests/unit/test_floors.sh" ;;

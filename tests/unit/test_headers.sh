@@ -23,7 +23,7 @@ check_tree() {
     wrong=0
     while read -r header; do
         case $header in
-        */include/meshtool/*) included="<meshtool/$(basename "$header")>" languages="C17 C++17" ;;
+        */include/meshtool/*) included="<meshtool/${header##*/}>" languages="C17 C++17" ;;
         *) included="\"$header\"" languages="C17" ;;
         esac
         for language in $languages; do
