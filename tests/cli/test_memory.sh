@@ -16,20 +16,21 @@ limited() {
     0 | 1) enough=$((enough + 1)) ;;
     5)
       refused=$((refused + 1))
-      grep -qE "limit|--max-memory is" err || fail "the limit is not named: $*: $(cat err)"
-      [ -z "$(ls -A out)" ] || fail "an output of a failed run is left: $*"
+      [[ $(<err) =~ limit|--max-memory\ is ]] || fail "the limit is not named: $*: $(<err)"
+      ! compgen -G "out/*" >/dev/null || fail "an output of a failed run is left: $*"
       ;;
-    *) fail "exit $? with --max-memory $size: $*: $(cat err)" ;;
+    *) fail "exit $? with --max-memory $size: $*: $(<err)" ;;
   esac
-  rm -f out/*
+  ! compgen -G "out/*" >/dev/null || rm -f out/*
 }
 
+# A run that ends under a limit never meets a higher one: two are enough, and then the highest.
 sweep() {
   enough=0
   refused=0
   for size in 1 1000 4000 16000 64000 80000 100000 150000 200000 256000 300000 400000 512000 700000 1000000 1500000 \
     2000000 4000000 8000000 64000000; do
-    limited "$size" "$@"
+    [ "$enough" -ge 2 ] && [ "$size" != 64000000 ] || limited "$size" "$@"
   done
   holds "some limits are too small: $*" test "$refused" -gt 0
   holds "some limits are enough: $*" test "$enough" -gt 0
