@@ -4,6 +4,7 @@
 
 #ifdef MESHTOOL_JPEG
 #include "formats/image/jpeg_errors.h"
+#include "formats/image/jpeg_orientation.h"
 #include "formats/image/samples.h"
 
 #include <string.h>
@@ -178,6 +179,18 @@ static mt_status decode(jpeg_reader *reader)
     return status == MT_OK ? read_rows(reader) : status;
 }
 
+/* What the file holds and the picture does not. */
+static void warn_of_the_rest(const jpeg_reader *reader)
+{
+    unsigned turn = mt_jpeg_orientation(reader->input);
+    uint64_t end = mt_input_offset(reader->input) - reader->source.bytes_in_buffer;
+    if (turn != 1) {
+        mt_warn(reader->context, "%s: Exif orientation %u is not applied; the picture is read as it is stored",
+                mt_input_name(reader->input), turn);
+    }
+    mt_picture_warn_of_rest(reader->context, reader->input, mt_input_size(reader->input) - end);
+}
+
 mt_status mt_jpeg_read(mt_context *context, mt_input *input, mt_image **out, unsigned *bits)
 {
     mt_status status = mt_input_collect(context, input);
@@ -196,6 +209,9 @@ mt_status mt_jpeg_read(mt_context *context, mt_input *input, mt_image **out, uns
     reader->input = input;
     reader->held = DECODER_BYTES;
     status = decode(reader);
+    if (status == MT_OK) {
+        warn_of_the_rest(reader);
+    }
     jpeg_destroy_decompress(&reader->decoder);
     mt_release_bytes(context, reader->held);
     *out = reader->image;

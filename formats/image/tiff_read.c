@@ -345,6 +345,9 @@ mt_status mt_tiff_read(mt_context *context, mt_input *input, mt_image **out, uns
         status = reader.tiff ? read_picture(&reader) : fail_in_tiff(&reader);
         mt_release_bytes(context, held);
     }
+    if (status == MT_OK && !TIFFLastDirectory(reader.tiff)) {
+        mt_warn(context, "%s: of several pictures only the first is read", mt_input_name(input));
+    }
     if (reader.tiff) {
         TIFFClose(reader.tiff);
     }

@@ -186,6 +186,23 @@ if command -v convert >/dev/null && convert -version | grep -q ImageMagick; then
   run 3 image "$folder/cmyk.jpg" "$folder/none.png"
   says "CMYK"
 
+  # What a file holds besides its picture is said.
+  printf '\377\330\377\341\0\042Exif\0\0MM\0*\0\0\0\010\0\001\001\022\0\003\0\0\0\001\0\006\0\0\0\0\0\0' >"$folder/turned.jpg"
+  tail -c +3 "$folder/cube.jpg" >>"$folder/turned.jpg"
+  run 0 image "$folder/turned.jpg" "$folder/out.png"
+  says "turned.jpg: Exif orientation 6 is not applied"
+  holds "the right number: $(identify -format '%[EXIF:Orientation]' "$folder/turned.jpg")" \
+    test "$(identify -format '%[EXIF:Orientation]' "$folder/turned.jpg")" = 6
+  printf 'four' | cat "$folder/cube.jpg" - >"$folder/longer.jpg"
+  run 0 image "$folder/longer.jpg" "$folder/out.png"
+  says "longer.jpg: 4 bytes after the picture are ignored"
+  run 0 image "$folder/cube.jpg" "$folder/out.png"
+  holds "nothing besides" test -z "$err"
+  convert "$folder/plasma.ppm" "$folder/plasma.ppm" "$folder/pages.tiff"
+  run 0 image "$folder/pages.tiff" "$folder/out.ppm"
+  says "pages.tiff: of several pictures only the first is read"
+  holds "the first" cmp "$folder/out.ppm" "$folder/plasma.ppm"
+
   run 0 image "$folder/plasma.ppm" "$folder/ours.pgm" --gray
   convert "$folder/plasma.ppm" -grayscale Rec709Luma -depth 8 "$folder/theirs.pgm"
   holds "luminance as ImageMagick's Rec709Luma" near "$folder/ours.pgm" "$folder/theirs.pgm" 1
