@@ -18,7 +18,7 @@ static const struct {
      "f32: each is rounded by 2^-24 of itself"},
     {"all that write text", "digits of positions", "9", "shortest", "shortest", "digits",
      "9 digits: each is rounded by 5e-9 of itself; shortest: not at all"},
-    {"distance", "tolerance, in diagonals", "1e-3", "1e-4", "1e-6", NULL,
+    {"distance", "tolerance, in diagonals", "1e-3", "1e-4", "1e-6", "distance",
      "the true Hausdorff distance is larger by at most this"},
     {"convert --draco", "bits of a coordinate", "11", "14", "as they are", "quantization",
      "a vertex moves by at most 2^-bits of the largest side on each axis"},

@@ -6,6 +6,7 @@
 
 extern const tradeoff_knob tradeoff_arithmetic;
 extern const tradeoff_knob tradeoff_digits;
+extern const tradeoff_knob tradeoff_distance;
 extern const tradeoff_knob tradeoff_levels;
 extern const tradeoff_knob tradeoff_quantization;
 extern const tradeoff_knob tradeoff_samples;

@@ -53,6 +53,14 @@ run 0 tradeoff "$folder/many.ply" --budget 0 --knob storage
 prints " of the diagonal, at 12100 of 24200 vertices that are judged"
 holds "the sample is as exact" grep -q "f64: normals up to [0-9]e-1[45] degrees off, refined vertices [0-9]e-17 " <<<"$out"
 
+# The largest distance of two meshes is within what is owned to, or the command fails; slivers leave no coarse copy.
+run 0 tradeoff "$folder/torus.ply" --budget 0 --knob distance --json
+holds "every level is there" test "$(grep -o '"largest_off": ' <<<"$out" | wc -l)" = 8
+prints '"level": "1e-6, 1/10"'
+"$meshtool" generate extreme:sliver -o "$folder/sliver.ply"
+run 0 tradeoff "$folder/sliver.ply" --budget 0 --knob distance
+prints "distance: left out, no face of the mesh is large enough"
+
 # Plots: SVG that ends, PNG by its content; nothing new after a failure.
 run 0 tradeoff "$folder/torus.ply" --budget 0 --knob samples --plot "$folder/plot.svg" -q
 holds "an SVG" grep -q '^<svg xmlns' "$folder/plot.svg"
