@@ -39,14 +39,6 @@ typedef struct surfaces {
     patch *patches, *quarters;
 } surfaces;
 
-static void load(const mt_mesh *mesh, const mt_triangulation *triangulation, mt_index triangle, mt_vec3 corners[3])
-{
-    for (mt_index side = 0; side < 3; side++) {
-        corners[side] =
-            mt_mesh_position(mesh, mesh->corner_vertices[mt_triangulation_corner(triangulation, triangle, side)]);
-    }
-}
-
 typedef struct search {
     const surfaces *surfaces;
     mt_vec3 point;
@@ -69,7 +61,7 @@ static void visit(void *user, mt_index triangle)
 {
     search *s = user;
     mt_vec3 corners[3];
-    load(s->surfaces->to, &s->surfaces->to_triangles, triangle, corners);
+    quad_load_corners(s->surfaces->to, &s->surfaces->to_triangles, triangle, corners);
     if (quad_may_be_nearer(corners, s->point, s->distance)) {
         double distance = quad_distance_to_triangle(corners, s->point);
         if (distance < s->distance) {
@@ -81,7 +73,7 @@ static void visit(void *user, mt_index triangle)
 static double distance_to(const surfaces *s, mt_index triangle, mt_vec3 point)
 {
     mt_vec3 corners[3];
-    load(s->to, &s->to_triangles, triangle, corners);
+    quad_load_corners(s->to, &s->to_triangles, triangle, corners);
     return quad_distance_to_triangle(corners, point);
 }
 
@@ -189,7 +181,7 @@ static mt_status find_largest(mt_context *context, surfaces *s, double tolerance
         return MT_ERROR_OUT_OF_MEMORY;
     }
     for (mt_index i = 0; i < count; i++) {
-        load(s->from, &s->from_triangles, i, s->pieces[i].corners);
+        quad_load_corners(s->from, &s->from_triangles, i, s->pieces[i].corners);
         s->pieces[i].near = s->blocks.order[0];
     }
     mt_status status = MT_OK;
@@ -267,7 +259,7 @@ static void begin_patches(void *user, uint64_t begin, uint64_t end)
     for (uint64_t at = begin; at < end; at++) {
         patch *p = &s->patches[at];
         *p = (patch){.shape.near = s->blocks.order[0]};
-        load(s->from, &s->from_triangles, (mt_index)at, p->shape.corners);
+        quad_load_corners(s->from, &s->from_triangles, (mt_index)at, p->shape.corners);
         if (!are_finite(p->shape.corners)) {
             continue; /* an area of 0 */
         }

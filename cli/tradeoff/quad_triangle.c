@@ -99,3 +99,12 @@ void quad_vertex_normals(const mt_mesh *mesh, mt_index step, quad3 *normals)
         normals[vertex] = quad3_normalize(normals[vertex]);
     }
 }
+
+void quad_load_corners(const mt_mesh *mesh, const mt_triangulation *triangulation, mt_index triangle,
+                       mt_vec3 corners[3])
+{
+    for (mt_index side = 0; side < 3; side++) {
+        mt_index corner = mt_triangulation_corner(triangulation, triangle, side);
+        corners[side] = mt_mesh_position(mesh, mesh->corner_vertices[corner]);
+    }
+}

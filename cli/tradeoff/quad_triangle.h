@@ -14,6 +14,10 @@ bool quad_may_be_nearer(const mt_vec3 corners[3], mt_vec3 point, double distance
 
 double quad_distance_to_triangle(const mt_vec3 corners[3], mt_vec3 point);
 
+/* The corners of a mesh's triangle. */
+void quad_load_corners(const mt_mesh *mesh, const mt_triangulation *triangulation, mt_index triangle,
+                       mt_vec3 corners[3]);
+
 /* The area-weighted unit normals of vertices 0, step, 2 step, ..., n-gons by their area vectors; `normals`, of all
  * vertices, begin as zeros. */
 void quad_vertex_normals(const mt_mesh *mesh, mt_index step, quad3 *normals);

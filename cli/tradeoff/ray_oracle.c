@@ -2,14 +2,6 @@
 
 #include "tradeoff/quad_triangle.h"
 
-static void load(const mt_mesh *mesh, const mt_triangulation *triangulation, mt_index triangle, mt_vec3 corners[3])
-{
-    for (mt_index side = 0; side < 3; side++) {
-        corners[side] =
-            mt_mesh_position(mesh, mesh->corner_vertices[mt_triangulation_corner(triangulation, triangle, side)]);
-    }
-}
-
 /* How far the ray passes by the line through two corners. */
 static quad distance_to_line(const mt_ray *ray, mt_vec3 from, mt_vec3 to)
 {
@@ -31,7 +23,7 @@ double ray_oracle_limit(const mt_mesh *mesh, const mt_triangulation *triangulati
     double limit = INFINITY;
     for (mt_index triangle = 0; triangle < triangulation->triangle_count; triangle++) {
         mt_vec3 corners[3];
-        load(mesh, triangulation, triangle, corners);
+        quad_load_corners(mesh, triangulation, triangle, corners);
         double t = quad_meet_triangle(corners, ray, margin);
         if (!(t < limit)) {
             continue;
@@ -54,6 +46,6 @@ bool ray_oracle_accepts(const mt_mesh *mesh, const mt_triangulation *triangulati
         return isinf(limit);
     }
     mt_vec3 corners[3];
-    load(mesh, triangulation, hit->triangle, corners);
+    quad_load_corners(mesh, triangulation, hit->triangle, corners);
     return hit->t <= limit && quad_distance_to_triangle(corners, mt_ray_at(ray, hit->t)) <= 2 * margin;
 }
