@@ -443,7 +443,9 @@ static void test_nothing(void **state)
     (void)state;
     test_reading reading;
     test_reading_begin(&reading);
-    mt_mesh *mesh = test_mesh(reading.context, 0, NULL, 0, NULL);
+    static const double positions[1];
+    static const mt_index faces[1];
+    mt_mesh *mesh = test_mesh(reading.context, 0, positions, 0, faces);
     mt_mesh_write_options options = {.format = "gltf", .quantize_bits = 16, .strict_loss = true};
     void *bytes;
     size_t size;
