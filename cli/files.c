@@ -22,6 +22,11 @@ bool cli_is_standard_output(const char *path)
     return false;
 }
 
+const char *cli_output_name(const char *path)
+{
+    return cli_is_standard_output(path) ? "standard output" : path;
+}
+
 const char *cli_extension(const char *text)
 {
     return text && *text == '.' ? text + 1 : text;
@@ -176,7 +181,7 @@ static void warn_of_loss(const cli_job *job, const char *path, const mt_mesh_for
         cli_line_add_item(&line, i, loss->count, loss->items[i]);
     }
     cli_progress_clear();
-    fprintf(stderr, "meshtool: warning: %s: %s cannot hold %s; %s\n", path, format->title, line.text,
+    fprintf(stderr, "meshtool: warning: %s: %s cannot hold %s; %s\n", cli_output_name(path), format->title, line.text,
             loss->count == 1 ? "this is lost" : "these are lost");
 }
 

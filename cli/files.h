@@ -11,6 +11,9 @@
 /* Whether the path is standard output by any of its names. */
 bool cli_is_standard_output(const char *path);
 
+/* What a sentence calls an output: its path, or "standard output". */
+const char *cli_output_name(const char *path);
+
 /* Checks what can be known before anything is read; each says what is wrong and returns its exit code.
  * Inputs: --from is known, and standard input is named once at most. */
 cli_exit cli_check_inputs(const cli_job *job);

@@ -1,5 +1,6 @@
 #include "image_loss.h"
 
+#include "files.h"
 #include "line.h"
 #include "message.h"
 #include "quantity.h"
@@ -26,8 +27,8 @@ static void list(const cli_image_loss *loss, loss_list *out)
     }
 }
 
-/* "Portable Network Graphics of 8 bits cannot hold samples of 16 bits"; false: nothing is lost. */
-static bool describe(const cli_image_loss *loss, cli_line *out)
+/* "Portable Network Graphics of 8 bits cannot hold samples of 16 bits"; returns how many things are lost. */
+static size_t describe(const cli_image_loss *loss, cli_line *out)
 {
     loss_list found;
     list(loss, &found);
@@ -35,7 +36,7 @@ static bool describe(const cli_image_loss *loss, cli_line *out)
     for (size_t i = 0; i < found.count; i++) {
         cli_line_add_item(out, i, found.count, found.items[i].text);
     }
-    return found.count > 0;
+    return found.count;
 }
 
 cli_exit cli_image_loss_find(const cli_job *job, const mt_image *image, const char *path,
@@ -46,7 +47,7 @@ cli_exit cli_image_loss_find(const cli_job *job, const mt_image *image, const ch
         return cli_report_failure(job, path);
     }
     loss->outside = loss->bits < 32 ? mt_image_count_outside(image, loss->bits) : 0;
-    if (!job->common->strict_loss || !describe(loss, &line)) {
+    if (!job->common->strict_loss || describe(loss, &line) == 0) {
         return CLI_EXIT_DONE;
     }
     mt_fail(job->context, MT_ERROR_LOSS, "%s, and no loss is allowed", line.text);
@@ -56,12 +57,14 @@ cli_exit cli_image_loss_find(const cli_job *job, const mt_image *image, const ch
 void cli_image_loss_warn(const cli_job *job, const char *path, const cli_image_loss *loss)
 {
     cli_line line = {0}, sentence = {0};
-    if (describe(loss, &line)) {
+    size_t count = describe(loss, &line);
+    if (count > 0) {
         unsigned most = 0;
         for (size_t i = 0; i < sizeof loss->format->bits / sizeof most; i++) {
             most = loss->format->bits[i] > most ? loss->format->bits[i] : most;
         }
-        cli_line_add(&sentence, "%s: %s; this is lost", path, line.text);
+        cli_line_add(&sentence, "%s: %s; %s", cli_output_name(path), line.text,
+                     count == 1 ? "this is lost" : "these are lost");
         if (most > loss->bits) {
             cli_line_add(&sentence, " (--bits goes up to %u)", most);
         }

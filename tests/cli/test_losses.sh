@@ -25,6 +25,10 @@ sed 's/{"name":"m"}/{}/; s/"name":"a",//g' named.gltf >unnamed.gltf
 run 0 convert unnamed.gltf again.obj
 holds "no line without a name" test "$(grep '^[ou]' again.obj | tr '\n' ' ')" = "o b "
 
+# Standard output is called so.
+run 0 convert named.obj - --to stl
+says "warning: standard output: STL cannot hold object names and material names; these are lost"
+
 # Refused is all that would be lost, in one sentence; past sixteen things there is more.
 run 3 convert named.obj none.stl --strict-loss
 says "none.stl: STL cannot hold object names and material names, and no loss is allowed"
