@@ -627,7 +627,7 @@ static void arithmetics_differ_in_doubles_alone(void **state)
     (void)state;
     test_random random = {1933};
     int wrong_faces = 0, wrong_pairs = 0, wrong_sides = 0;
-    for (int i = 0; i < 900; i++) {
+    for (int i = 0; i < 300; i++) {
         mt_context *context = test_context();
         mt_mesh *mesh = i % 3 ? test_soup(context, &random) : test_patch(context, &random);
         place_badly(mesh, i % 2 == 0);
