@@ -194,7 +194,7 @@ static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_
 
 const tradeoff_knob tradeoff_distance = {
     .name = "distance",
-    .question = "How exactly is the distance of two meshes known, and by samples how far apart?",
+    .question = "How exactly is the distance of two meshes known?",
     .oracle = "bounds in 113-bit arithmetic, from a coarse copy of the mesh and back",
     .axis = "largest_off",
     .levels = levels,
