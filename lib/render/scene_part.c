@@ -59,13 +59,18 @@ mt_status mt_scene_part_build(mt_context *context, mt_scene_part *part)
     return status;
 }
 
+mt_ray_structure_kind mt_scene_structure_kind(bool has_kind, mt_ray_structure_kind kind, mt_index triangle_count)
+{
+    if (has_kind) {
+        return kind;
+    }
+    return triangle_count <= FEW_TRIANGLES ? MT_RAY_STRUCTURE_NONE : MT_RAY_STRUCTURE_AABB;
+}
+
 mt_status mt_scene_part_build_tree(mt_context *context, mt_scene_part *part)
 {
-    mt_ray_structure_kind kind = part->kind;
-    if (!part->has_kind) {
-        bool is_small = part->model.triangulation.triangle_count <= FEW_TRIANGLES;
-        kind = is_small ? MT_RAY_STRUCTURE_NONE : MT_RAY_STRUCTURE_AABB;
-    }
+    mt_ray_structure_kind kind =
+        mt_scene_structure_kind(part->has_kind, part->kind, part->model.triangulation.triangle_count);
     if (kind == MT_RAY_STRUCTURE_NONE) {
         mt_part_skip(context, "surface tree",
                      part->has_kind ? "asked to do without: every ray meets every triangle"

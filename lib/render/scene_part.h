@@ -27,6 +27,8 @@ typedef struct mt_scene_part {
 void mt_scene_part_init(const mt_scene_mesh *source, const mt_scene_options *options, mt_scene_part *part);
 /* What shading needs: triangles, normals, colours. */
 mt_status mt_scene_part_build(mt_context *context, mt_scene_part *part);
+/* What rays search among so many triangles: the kind asked for, or what suits their number. */
+mt_ray_structure_kind mt_scene_structure_kind(bool has_kind, mt_ray_structure_kind kind, mt_index triangle_count);
 /* What rays search beside. */
 mt_status mt_scene_part_build_tree(mt_context *context, mt_scene_part *part);
 void mt_scene_part_release(mt_context *context, mt_scene_part *part);

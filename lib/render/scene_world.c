@@ -182,10 +182,14 @@ static mt_status make_ready(mt_context *context, mt_scene_world *world)
     unsigned samples = plan->fine_samples > plan->samples ? plan->fine_samples : plan->samples;
     mt_status status =
         mt_frame_init(context, world->model, &camera, samples, plan->options.triangle_test, &world->frame);
-    if (status != MT_OK || plan->options.method == MT_METHOD_RAY) {
-        return status == MT_OK
-                   ? mt_occluder_init(context, world->model, plan->options.triangle_test, true, &world->occluder)
-                   : status;
+    if (status == MT_OK && plan->options.method == MT_METHOD_RAY) {
+        const mt_scene_options *options = &plan->options;
+        mt_ray_structure_kind kind = mt_scene_structure_kind(options->has_structure, options->structure,
+                                                             world->model->triangulation.triangle_count);
+        return mt_occluder_init(context, world->model, options->triangle_test, kind, &world->occluder);
+    }
+    if (status != MT_OK) {
+        return status;
     }
     int part = mt_part_begin(context, "tile lists", "triangles sorted by 32 x 32 pixels");
     const mt_binned binned = {&world->frame, world->model->triangulation.triangle_count, triangle_range,

@@ -341,13 +341,39 @@ static void only_what_the_scene_requires_is_built(void **state)
     }
 }
 
+/* Primary rays alone search a tree too, but where they are to do without. */
+static void rays_that_are_asked_for_have_a_tree(void **state)
+{
+    (void)state;
+    for (int without = 0; without < 2; without++) {
+        mt_context_options how = {.explain = true};
+        mt_context *context = mt_context_create(&how);
+        mt_mesh *torus = NULL;
+        assert_int_equal(mt_generate(context, "torus", NULL, &torus), MT_OK);
+        test_scene s;
+        test_scene_init(&s, 32);
+        test_scene_mesh(&s, 0, torus, mt_transform_identity());
+        const mt_scene_options options = {
+            .method = MT_METHOD_RAY, .has_structure = without, .structure = MT_RAY_STRUCTURE_NONE};
+        mt_image_destroy(context, test_scene_draw(context, &s, &options, NULL));
+        assert_int_equal(has_part(context, "surface tree", true), !without);
+        mt_mesh_destroy(context, torus);
+        test_context_end(context);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(threads_do_not_matter),          cmocka_unit_test(the_bytes_are_known),
-        cmocka_unit_test(structures_do_not_matter),       cmocka_unit_test(missing_memory_is_an_error),
-        cmocka_unit_test(cancelling_leaves_nothing),      cmocka_unit_test(both_orders_draw_the_same),
-        cmocka_unit_test(instances_cost_their_transform), cmocka_unit_test(only_what_the_scene_requires_is_built),
+        cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(the_bytes_are_known),
+        cmocka_unit_test(structures_do_not_matter),
+        cmocka_unit_test(missing_memory_is_an_error),
+        cmocka_unit_test(cancelling_leaves_nothing),
+        cmocka_unit_test(both_orders_draw_the_same),
+        cmocka_unit_test(instances_cost_their_transform),
+        cmocka_unit_test(only_what_the_scene_requires_is_built),
+        cmocka_unit_test(rays_that_are_asked_for_have_a_tree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
