@@ -32,8 +32,9 @@ static const cli_option options[] = {
      .expects = "seconds, from 0 to 86400",
      .minimum = 0,
      .maximum = 86400,
-     .help = "time for repeated runs, of all knobs together (default 20); a level whose first run takes longer than "
-             "its knob's share is left out where it can be stopped; 0: every level once, whatever it takes"},
+     .help = "about how long all knobs take together, oracles included (default 20; twice that on a mesh of a million "
+             "faces); a level whose first run takes too much of its knob's share is left out where it can be stopped; "
+             "0: every level once, whatever it takes"},
     {.name = "plot",
      .offset = SETTING(plot),
      .parse = cli_parse_text,
@@ -72,14 +73,22 @@ static const tradeoff_knob *find_knob(const cli_job *job, const char *name)
     return NULL;
 }
 
+/* What is left of the time is shared by the knobs that are left; where all is used up, each still has a little. */
+static double share_of(double budget, double spent, size_t done)
+{
+    double all = (double)knob_count();
+    return fmax((budget - spent) / (all - (double)done), budget / (4 * all));
+}
+
 static mt_status measure(const tradeoff_subject *subject, const tradeoff_knob *only, tradeoff_table *table)
 {
     const tradeoff_settings *settings = subject->job->settings;
     mt_status status = MT_OK;
     table->reference_seconds = tradeoff_reference();
+    double begin = tradeoff_now();
     for (size_t i = 0; status == MT_OK && tradeoff_knobs[i]; i++) {
         if (!only || only == tradeoff_knobs[i]) {
-            double share = only ? settings->budget : settings->budget / (double)knob_count();
+            double share = only ? settings->budget : share_of(settings->budget, tradeoff_now() - begin, i);
             int part = mt_part_begin(subject->job->context, tradeoff_knobs[i]->name, tradeoff_knobs[i]->question);
             status = tradeoff_measure(subject, tradeoff_knobs[i], share, table);
             mt_part_end(subject->job->context, part);

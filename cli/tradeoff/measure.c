@@ -15,7 +15,7 @@
 #define RUN_MAXIMUM 15
 #define LEVEL_MAXIMUM 16
 
-static double now(void)
+double tradeoff_now(void)
 {
     struct timespec time;
     clock_gettime(CLOCK_MONOTONIC, &time);
@@ -40,12 +40,12 @@ double tradeoff_reference(void)
     double times[RUNS];
     volatile double sink = 0;
     for (size_t run = 0; run < RUNS; run++) {
-        double begin = now(), sum = 1;
+        double begin = tradeoff_now(), sum = 1;
         for (int i = 1; i <= LENGTH; i++) {
             sum = sum * 0x1.fffffep-1 + (double)i;
         }
         sink = sink + sum;
-        times[run] = now() - begin;
+        times[run] = tradeoff_now() - begin;
     }
     return median(times, RUNS);
 }
@@ -82,8 +82,8 @@ typedef struct session {
     tradeoff_row *rows;
     size_t levels[LEVEL_MAXIMUM]; /* those that are not left out, a row each */
     size_t level_count;
-    double patience; /* seconds after which a first run is stopped; 0: never */
-    double deadline; /* of the run at hand */
+    double begin, seconds; /* when the knob's time began, and how long it is; 0: as long as it takes */
+    double deadline;       /* of the run at hand */
     bool is_late;
     char task[64];            /* as the bar names the run at hand */
     double done, done_by_run; /* shares: before the run at hand, and by it */
@@ -95,7 +95,7 @@ static bool may_go_on(void *user, const char *task, double fraction)
 {
     (void)task;
     session *s = user;
-    s->is_late = now() > s->deadline;
+    s->is_late = tradeoff_now() > s->deadline;
     return !s->is_late && mt_progress(s->subject->job->context, s->task, s->done + s->done_by_run * fraction) == MT_OK;
 }
 
@@ -130,6 +130,17 @@ static mt_status announce(session *s, const char *what, size_t level, size_t at,
     return mt_progress(s->subject->job->context, s->task, s->done);
 }
 
+/* How long a first run may take: what is left of twice the knob's time is shared by the levels that are left. */
+static double patience_of(const session *s, size_t level)
+{
+    size_t count = level;
+    while (s->knob->levels[count]) {
+        count++;
+    }
+    double left = 2 * s->seconds - (tradeoff_now() - s->begin);
+    return fmax(left / (double)(count - level), s->seconds / (double)count);
+}
+
 /* One run of a level; `row` is filled when it is judged. */
 static mt_status run_once(session *s, size_t level, tradeoff_row *row, double *seconds)
 {
@@ -137,11 +148,11 @@ static mt_status run_once(session *s, size_t level, tradeoff_row *row, double *s
     if (!context) {
         return MT_ERROR_OUT_OF_MEMORY;
     }
-    double begin = now();
+    double begin = tradeoff_now();
     s->is_late = false;
-    s->deadline = row && s->patience > 0 ? begin + s->patience : INFINITY;
+    s->deadline = row && s->seconds > 0 ? begin + patience_of(s, level) : INFINITY;
     mt_status status = s->knob->run(s->state, level, context);
-    *seconds = now() - begin;
+    *seconds = tradeoff_now() - begin;
     s->deadline = INFINITY;
     if (status == MT_OK && row) {
         row->peak_bytes = mt_context_peak_bytes(context);
@@ -259,12 +270,13 @@ static void find_front(session *s)
     }
 }
 
-static mt_status measure_levels(session *s, double budget)
+static mt_status measure_levels(session *s)
 {
     double round = 0;
     mt_status status = judge_levels(s, &round);
-    size_t runs = round > 0 && budget / round < RUN_MAXIMUM ? (size_t)(budget / round) : RUN_MAXIMUM;
-    runs = runs > 1 ? runs - (runs % 2 == 0) : 0;
+    double left = fmax(s->seconds - (tradeoff_now() - s->begin), 0);
+    size_t runs = round > 0 && left / round < RUN_MAXIMUM ? (size_t)(left / round) : RUN_MAXIMUM;
+    runs = s->seconds > 0 && runs > 1 ? runs - (runs % 2 == 0) : 0;
     if (status == MT_OK && runs > 0) {
         status = time_levels(s, runs);
     }
@@ -281,14 +293,18 @@ mt_status tradeoff_measure(const tradeoff_subject *subject, const tradeoff_knob 
     if (!s) {
         return mt_fail(subject->job->context, MT_ERROR_OUT_OF_MEMORY, "out of memory for the times of %s", knob->name);
     }
-    *s = (session){
-        .subject = subject, .knob = knob, .table = table, .rows = table->rows + table->row_count, .patience = seconds};
+    *s = (session){.subject = subject,
+                   .knob = knob,
+                   .table = table,
+                   .rows = table->rows + table->row_count,
+                   .begin = tradeoff_now(),
+                   .seconds = seconds};
     const char *why = NULL;
     mt_status status = knob->prepare(subject, &s->state, &why);
     if (status == MT_OK && why) {
         table->skips[table->skip_count++] = (tradeoff_skip){knob, NULL, why};
     } else if (status == MT_OK) {
-        status = measure_levels(s, seconds);
+        status = measure_levels(s);
         table->row_count += s->level_count;
     }
     if (s->state) {

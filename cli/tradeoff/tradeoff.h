@@ -88,10 +88,12 @@ typedef struct tradeoff_table {
     double reference_seconds; /* of a fixed sum, so that times of two machines can be compared */
 } tradeoff_table;
 
-/* Measures one knob for about so many seconds, its oracle not counted; adds its rows and its skips. A level whose first
- * run takes longer than all these seconds and can be stopped is left out; with 0 seconds every level runs once. */
+/* Measures one knob for about so many seconds, its oracle included; adds its rows and its skips. A level whose first
+ * run takes too much of them and can be stopped is left out; with 0 seconds every level runs once. */
 mt_status tradeoff_measure(const tradeoff_subject *subject, const tradeoff_knob *knob, double seconds,
                            tradeoff_table *table);
+/* Seconds of a clock that never goes back. */
+double tradeoff_now(void);
 /* The reference kernel's median time. */
 double tradeoff_reference(void);
 

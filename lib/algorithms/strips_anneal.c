@@ -30,6 +30,9 @@
 #define WINDOW_SHIFT 15
 #define WINDOW (1u << WINDOW_SHIFT)
 
+/* Between two chances to stop: a step may walk along a run, and runs may have thousands of triangles. */
+#define STEPS_A_REPORT 1024
+
 #define PRICE_ROOM 32   /* no step costs as much */
 #define END_SHARE 0.85  /* of steps that begin at the end of a run, where most gain is */
 #define MOVED_MAXIMUM 4 /* triangles whose links a step changes */
@@ -262,10 +265,15 @@ static mt_status anneal_window(mt_context *context, annealer *state, double step
     mt_index left = state->graph->triangle_count - state->window_begin;
     state->window_size = left < WINDOW ? left : WINDOW;
     uint64_t count = (uint64_t)(steps * state->window_size) + 1;
-    for (uint64_t i = 0; i < count; i++) {
-        step(state);
+    mt_status status = MT_OK;
+    for (uint64_t done = 0; status == MT_OK && done < count;) {
+        uint64_t end = count - done < STEPS_A_REPORT ? count : done + STEPS_A_REPORT;
+        for (; done < end; done++) {
+            step(state);
+        }
+        status = mt_progress(context, "strips", share);
     }
-    return mt_progress(context, "strips", share);
+    return status;
 }
 
 static mt_status anneal(mt_context *context, annealer *state, mt_index window_count)
