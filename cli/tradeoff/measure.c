@@ -13,7 +13,6 @@
 #include <time.h>
 
 #define RUN_MAXIMUM 15
-#define LEVEL_MAXIMUM 16
 
 double tradeoff_now(void)
 {
@@ -80,14 +79,14 @@ typedef struct session {
     void *state;
     tradeoff_table *table;
     tradeoff_row *rows;
-    size_t levels[LEVEL_MAXIMUM]; /* those that are not left out, a row each */
+    size_t levels[TRADEOFF_KNOB_LEVEL_MAXIMUM]; /* those that are not left out, a row each */
     size_t level_count;
     double begin, seconds; /* when the knob's time began, and how long it is; 0: as long as it takes */
     double deadline;       /* of the run at hand */
     bool is_late;
     char task[64];            /* as the bar names the run at hand */
     double done, done_by_run; /* shares: before the run at hand, and by it */
-    double times[LEVEL_MAXIMUM][RUN_MAXIMUM];
+    double times[TRADEOFF_KNOB_LEVEL_MAXIMUM][RUN_MAXIMUM];
 } session;
 
 /* A first run is stopped when it is late; every run, when the command is. */
@@ -130,7 +129,8 @@ static mt_status announce(session *s, const char *what, size_t level, size_t at,
     return mt_progress(s->subject->job->context, s->task, s->done);
 }
 
-/* How long a first run may take: what is left of twice the knob's time is shared by the levels that are left. */
+/* How long a first run may take: what is left of twice the knob's time is shared by the levels that are left,
+ * and each has half of the knob's time at least, should the oracle have used it up. */
 static double patience_of(const session *s, size_t level)
 {
     size_t count = level;
@@ -138,7 +138,7 @@ static double patience_of(const session *s, size_t level)
         count++;
     }
     double left = 2 * s->seconds - (tradeoff_now() - s->begin);
-    return fmax(left / (double)(count - level), s->seconds / (double)count);
+    return fmax(left / (double)(count - level), 0.5 * s->seconds);
 }
 
 /* One run of a level; `row` is filled when it is judged. */
@@ -192,7 +192,7 @@ static mt_status judge_level(session *s, size_t level, double *round)
 static mt_status judge_levels(session *s, double *round)
 {
     size_t count = 0;
-    while (count < LEVEL_MAXIMUM && s->knob->levels[count]) {
+    while (count < TRADEOFF_KNOB_LEVEL_MAXIMUM && s->knob->levels[count]) {
         count++;
     }
     mt_status status = MT_OK;

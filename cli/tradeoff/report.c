@@ -3,6 +3,7 @@
 
 #include "json.h"
 #include "quantity.h"
+#include "tradeoff/unit.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -81,9 +82,11 @@ static void print_legend(const tradeoff_table *table)
     for (size_t i = 0; i < table->row_count; i++) {
         has_knee |= table->rows[i].is_knee;
     }
-    puts(has_knee ? "\n* the knee: beyond it, a little more costs much." : "");
-    puts("Times are medians; +- is half of their range. Errors: normals in degrees, distances and displacements in\n"
-         "diagonals of the mesh's box, t as a share of itself, missed_at_ and wrong_per_million of a million rays.");
+    puts(has_knee ? "\n* the knee: beyond it, a little more exactness costs much time." : "");
+    puts("Times are medians; +- is half of their range; without it there was one run. Errors, 0 being right, in the "
+         "unit\n"
+         "after the semicolon (p50: half of all are below it, p99: 99 of 100; diagonals: of the mesh's box):");
+    tradeoff_print_units(table);
 }
 
 void tradeoff_print_text(const tradeoff_subject *subject, const tradeoff_table *table)

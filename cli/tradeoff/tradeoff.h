@@ -78,6 +78,7 @@ typedef struct tradeoff_skip {
 } tradeoff_skip;
 
 #define TRADEOFF_KNOB_MAXIMUM 16
+#define TRADEOFF_KNOB_LEVEL_MAXIMUM 16
 #define TRADEOFF_ROW_MAXIMUM 96
 
 typedef struct tradeoff_table {

@@ -74,6 +74,28 @@ says 'no knob is called "sampels"; did you mean samples?'
 run 3 tradeoff "$folder/bad.off" --plot "$folder/none.svg"
 holds "no plot of a bad mesh" test ! -e "$folder/none.svg"
 
+# A plot says how it is to be read, what stands upwards and in which unit; where nothing is wrong it shows no scale.
+run 0 tradeoff "$folder/torus.ply" --budget 1 --json --plot "$folder/all.svg"
+for text in 'What speed costs on torus.ply (288 faces)' 'Left is faster, lower is more exact.' \
+  'Filled: no other level is as fast and as exact.' 'Ringed: the knee. Beyond it, a little more exactness costs much time.' \
+  'rmse: root mean square error of a pixel (1: full brightness)' 'normal max: how far a vertex normal is off (degrees)' \
+  'hausdorff: distance from the limit surface, at most (diagonals)' 'wrong pixels: pixels that show a wrong face (count)' \
+  'No level has an error on this mesh.' 'left out: 4' '>time<'; do
+  holds "the plot says: $text" grep -qF -- "$text" "$folder/all.svg"
+done
+count() { grep -o -- "$1" | wc -l; }
+holds "each knee is named" test "$(count '"knee": true' <<<"$out")" = "$(count '(knee)</text>' <"$folder/all.svg")"
+holds "each knee is ringed" test "$(count '"knee": true' <<<"$out")" = "$(count 'r="9.5"' <"$folder/all.svg")"
+# The report explains every error that the JSON has.
+run 0 tradeoff "$folder/torus.ply" --budget 1 --json
+figures=$(grep -o '"error": {[^}]*}' <<<"$out" | grep -o '"[a-z_0-9]*":' | tr -d '":' | sort -u | grep -vx error)
+run 0 tradeoff "$folder/torus.ply" --budget 1
+legend=$(sed -n '/^Times are medians/,$p' <<<"$out")
+holds "there are errors" test "$(wc -w <<<"$figures")" -gt 20
+for figure in $figures; do
+  holds "the legend has $figure" grep -q "^  [^;]*\b$figure[,:]" <<<"$legend"
+done
+
 # A mesh without faces has no rays to trace, and says so.
 printf 'OFF\n2 0 0\n0 0 0\n1 1 1\n' >"$folder/points.off"
 run 0 tradeoff "$folder/points.off" --budget 0
