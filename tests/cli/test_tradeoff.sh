@@ -14,8 +14,9 @@ for key in '"knob": "triangle-test"' '"level": "exact"' '"seconds": ' '"spread":
 done
 
 # Runs that are repeated have a spread.
-run 0 tradeoff "$folder/torus.ply" --budget 2 --knob visibility --json
+run 0 tradeoff "$folder/torus.ply" --budget 10 --knob digits --json
 case $out in *'"spread": null'*) fail "a spread is missing: $out" ;; *) pass ;; esac
+run 0 tradeoff "$folder/torus.ply" --budget 0 --knob visibility --json
 holds "nothing is wrong" test "$(grep -o '"wrong_pixels": 0.0' <<<"$out" | wc -l)" = 2
 holds "pixels were judged" grep -q '"judged_pixels": 39[0-9][0-9]' <<<"$out"
 holds "nothing differs" test "$(grep -o '"differing_pixels": 0.0' <<<"$out" | wc -l)" = 2
