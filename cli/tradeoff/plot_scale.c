@@ -71,14 +71,19 @@ size_t plot_scale_ticks(const plot_scale *scale, double ticks[PLOT_TICK_MAXIMUM]
         {3, 1, {1}},
         {2, 1, {1}},
         {1, 1, {1}},
+        {1, 2, {1, 3}},
         {1, 3, {1, 2, 5}},
         {1, 6, {1, 1.5, 2, 3, 5, 7}},
         {1, 13, {1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 4, 5, 6, 7, 8}},
         {1, 18, {1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2, 2.2, 2.4, 2.6, 2.8, 3, 3.5, 4}},
+        {1, 14, {2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 6.5, 7, 7.5, 8, 8.5, 9}},
     };
-    size_t count = 0;
-    for (size_t i = 0; count < 3 && i < sizeof partings / sizeof *partings; i++) {
-        count = list_ticks(scale, &partings[i], ticks);
+    /* Three at least; where no parting has as many, the one that has most. */
+    size_t best = 0, most = 0;
+    for (size_t i = 0; most < 3 && i < sizeof partings / sizeof *partings; i++) {
+        size_t count = list_ticks(scale, &partings[i], ticks);
+        best = count > most ? i : best;
+        most = count > most ? count : most;
     }
-    return count;
+    return list_ticks(scale, &partings[best], ticks);
 }
