@@ -54,6 +54,9 @@ static mt_status create_reader(mt_context *context, mt_obj_reader *reader)
     reader->first_faces = mt_allocate_array(context, blocks, sizeof *reader->first_faces);
     reader->first_corners = mt_allocate_array(context, blocks, sizeof *reader->first_corners);
     reader->wrong = mt_allocate_array_zeroed(context, blocks, sizeof *reader->wrong);
+    for (unsigned i = 0; reader->stores && i < reader->store_count; i++) {
+        reader->stores[i].largest = mt_obj_store_piece(mt_text_size(reader->text), reader->store_count);
+    }
     bool complete = reader->blocks && reader->stores && reader->bases && reader->first_faces && reader->first_corners &&
                     reader->wrong;
     reader->block_count = complete ? blocks : 0;

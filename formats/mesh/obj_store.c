@@ -3,8 +3,11 @@
 #include <string.h>
 
 #define PIECE_HEADER 64 /* keeps items aligned to the cache line */
-/* With both headers a huge page. */
-#define LARGEST_PIECE (((size_t)2 << 20) - PIECE_HEADER - 64)
+#define BLOCK_HEADER 64 /* of the allocator: with both headers large pieces are whole huge pages */
+#define HUGE_PAGE ((size_t)2 << 20)
+#define LARGEST_PIECE (2 * HUGE_PAGE)
+#define SMALLEST_SHARE ((size_t)64 << 10)
+#define PIECES_A_SERIES 8
 #define FIRST_ITEMS 64
 
 struct mt_obj_piece {
@@ -32,18 +35,23 @@ void mt_obj_store_keep(const mt_obj_block *block)
 {
     mt_obj_store *store = block->store;
     for (int series = 0; series < MT_OBJ_SERIES_COUNT; series++) {
-        size_t size = block->counts[series] * mt_obj_item_size((mt_obj_series)series);
-        store->used[series] += size;
-        store->kept[series] += size;
+        store->used[series] += block->counts[series] * mt_obj_item_size((mt_obj_series)series);
     }
 }
 
-/* Pieces grow with what is kept, so that the last has little of it to waste, up to the largest; a block that needs more
- * than that doubles alone. */
+size_t mt_obj_store_piece(uint64_t text_size, unsigned store_count)
+{
+    uint64_t size = text_size / PIECES_A_SERIES / store_count;
+    size = size < LARGEST_PIECE ? size : LARGEST_PIECE;
+    size = size > HUGE_PAGE ? size / HUGE_PAGE * HUGE_PAGE : size > SMALLEST_SHARE ? size : SMALLEST_SHARE;
+    return (size_t)size - PIECE_HEADER - BLOCK_HEADER;
+}
+
+/* Pieces double up to the largest; a block that needs more than that doubles alone. */
 static size_t next_size(const mt_obj_store *store, mt_obj_series series, size_t held, size_t needed)
 {
-    size_t size = store->kept[series] / 2;
-    size = size < LARGEST_PIECE ? size : LARGEST_PIECE;
+    size_t size = 2 * store->sizes[series];
+    size = size < store->largest ? size : store->largest;
     size_t first = FIRST_ITEMS * mt_obj_item_size(series);
     size = size > first ? size : first;
     size = size > 2 * held ? size : 2 * held;
@@ -83,7 +91,7 @@ void mt_obj_store_release_series(mt_context *context, mt_obj_store *store, mt_ob
         store->pieces[series] = piece->next;
         mt_free(context, piece);
     }
-    store->used[series] = store->sizes[series] = store->kept[series] = 0;
+    store->used[series] = store->sizes[series] = 0;
 }
 
 void mt_obj_store_release(mt_context *context, mt_obj_store *store)

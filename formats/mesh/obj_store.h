@@ -12,8 +12,12 @@ typedef struct mt_obj_store {
     mt_obj_piece *pieces[MT_OBJ_SERIES_COUNT]; /* the newest first, which is the one that is filled */
     size_t used[MT_OBJ_SERIES_COUNT];          /* bytes of the newest that blocks have kept */
     size_t sizes[MT_OBJ_SERIES_COUNT];         /* bytes that it has room for */
-    size_t kept[MT_OBJ_SERIES_COUNT];          /* bytes of blocks in all pieces */
+    size_t largest;                            /* bytes that a piece has, unless one block needs more */
 } mt_obj_store;
+
+/* What `largest` should be: large enough to fill huge pages, and so small that the room which the last pieces of all
+ * stores leave unused is a fraction of the text. */
+size_t mt_obj_store_piece(uint64_t text_size, unsigned store_count);
 
 /* Makes *block an empty one that fills the room which is left. Until it is kept no other block may be begun. */
 void mt_obj_store_begin(mt_obj_store *store, mt_obj_block *block);
