@@ -111,9 +111,9 @@ static const cli_option options[] = {
      .expects = "a whole number from 0 to 30",
      .minimum = 0,
      .maximum = 30,
-     .help =
-         "round positions to BITS of their extent: with Draco (default: 14), or in glTF without it (up to 16); 0 keeps "
-         "all numbers as they are"},
+     .help = "round positions to BITS of their extent: with Draco (default: 14), or in glTF without it (up to 16); 0: "
+             "round "
+             "nothing but to the format's own numbers"},
     {.name = "draco-speed",
      .offset = offsetof(convert_settings, speed),
      .parse = cli_parse_count,

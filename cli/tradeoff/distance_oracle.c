@@ -144,6 +144,32 @@ static void quarter(const piece *p, piece out[4])
     out[3] = (piece){{halves[0], halves[1], halves[2]}, p->near, 0};
 }
 
+static bool are_finite(const mt_vec3 p[3])
+{
+    return mt_vec3_is_finite(p[0]) && mt_vec3_is_finite(p[1]) && mt_vec3_is_finite(p[2]);
+}
+
+/* Of a triangle with a corner that is not finite the others alone are looked at, as pieces of one point: two at most.
+ */
+static mt_index begin_pieces(surfaces *s)
+{
+    mt_index count = 0;
+    for (mt_index i = 0; i < s->from_triangles.triangle_count; i++) {
+        mt_vec3 p[3];
+        quad_load_corners(s->from, &s->from_triangles, i, p);
+        if (are_finite(p)) {
+            s->pieces[count++] = (piece){{p[0], p[1], p[2]}, s->blocks.order[0], 0};
+            continue;
+        }
+        for (int side = 0; side < 3; side++) {
+            if (mt_vec3_is_finite(p[side])) {
+                s->pieces[count++] = (piece){{p[side], p[side], p[side]}, s->blocks.order[0], 0};
+            }
+        }
+    }
+    return count;
+}
+
 /* Quarters those pieces that may hold more than the lower bound; returns how many there are then. Raises the upper
  * bound to what the others may hold, or all where the quarters would be too many. */
 static mt_status keep_pieces(mt_context *context, surfaces *s, mt_index *count, mt_index room, double tolerance,
@@ -174,16 +200,13 @@ static mt_status keep_pieces(mt_context *context, surfaces *s, mt_index *count, 
 
 static mt_status find_largest(mt_context *context, surfaces *s, double tolerance, distance_oracle *out)
 {
-    mt_index count = s->from_triangles.triangle_count, most = count > PIECE_WORK ? count : PIECE_WORK;
-    s->pieces = mt_allocate_array(context, count, sizeof *s->pieces);
-    s->lowers = mt_allocate_array(context, most, sizeof *s->lowers);
+    uint64_t room_of_all = 2 * (uint64_t)s->from_triangles.triangle_count;
+    s->pieces = mt_allocate_array(context, room_of_all, sizeof *s->pieces);
+    s->lowers = mt_allocate_array(context, room_of_all > PIECE_WORK ? room_of_all : PIECE_WORK, sizeof *s->lowers);
     if (!s->pieces || !s->lowers) {
         return MT_ERROR_OUT_OF_MEMORY;
     }
-    for (mt_index i = 0; i < count; i++) {
-        quad_load_corners(s->from, &s->from_triangles, i, s->pieces[i].corners);
-        s->pieces[i].near = s->blocks.order[0];
-    }
+    mt_index count = begin_pieces(s);
     mt_status status = MT_OK;
     mt_index work = 0;
     for (int round = 0; status == MT_OK && count > 0; round++) {
@@ -248,11 +271,6 @@ static void split_patches(void *user, uint64_t begin, uint64_t end)
     }
 }
 
-static bool are_finite(const mt_vec3 p[3])
-{
-    return mt_vec3_is_finite(p[0]) && mt_vec3_is_finite(p[1]) && mt_vec3_is_finite(p[2]);
-}
-
 static void begin_patches(void *user, uint64_t begin, uint64_t end)
 {
     surfaces *s = user;
@@ -261,7 +279,7 @@ static void begin_patches(void *user, uint64_t begin, uint64_t end)
         *p = (patch){.shape.near = s->blocks.order[0]};
         quad_load_corners(s->from, &s->from_triangles, (mt_index)at, p->shape.corners);
         if (!are_finite(p->shape.corners)) {
-            continue; /* an area of 0 */
+            continue; /* left out */
         }
         p->area = area_of(p->shape.corners);
         p->at_middle = nearest_distance(s, middle_of(p->shape.corners), &p->shape.near);
@@ -309,9 +327,14 @@ static mt_status find_mean(mt_context *context, surfaces *s, double tolerance, d
     }
     mt_parallel_for(context, count, 16, begin_patches, s);
     quad area = 0, sums[2] = {0, 0};
+    mt_index finite = 0;
     for (mt_index i = 0; i < count; i++) {
-        area += s->patches[i].area;
+        if (are_finite(s->patches[i].shape.corners)) {
+            area += s->patches[i].area;
+            s->patches[finite++] = s->patches[i];
+        }
     }
+    count = finite;
     mt_status status = MT_OK;
     while (status == MT_OK && count > 0) {
         s->quarters = mt_allocate_array(context, 4 * (uint64_t)count, sizeof *s->quarters);
@@ -323,6 +346,7 @@ static mt_status find_mean(mt_context *context, surfaces *s, double tolerance, d
         status = keep_patches(context, s, &count, tolerance * area, work > PATCH_WORK, sums);
         mt_free(context, s->quarters);
         s->quarters = NULL;
+        status = status == MT_OK ? mt_progress(context, "integrating the distance in 113 bits", 0.5) : status;
     }
     out->mean = area > 0 ? (double)(sums[0] / area) : (double)NAN;
     out->mean_error = area > 0 ? (double)(quad_absolute(sums[1]) / area) : (double)NAN;

@@ -8,6 +8,7 @@
 #include <meshtool/triangulate.h>
 #include <meshtool/weld.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -17,9 +18,13 @@
 /* Triangles of a mesh from which the oracle measures; larger ones are measured to alone. */
 #define ORACLE_TRIANGLES 6000U
 
-/* Of the oracle's bounds, and of all that doubles lose, in diagonals. */
+/* Those of a coarse copy that it can bound in seconds. */
+#define COARSE_TRIANGLES 20000U
+
+/* Of the oracle's bounds, and of all that doubles lose: in diagonals, and as a share of the coordinates. */
 #define ORACLE_TOLERANCE 1e-9
 #define ROUNDING 1e-12
+#define COORDINATE_ROUNDING (16 * DBL_EPSILON)
 
 static const char *const levels[] = {"samples, 1/10", "1e-2, 1/10", "1e-3, 1/10",  "1e-4, 1/10", "1e-5, 1/10",
                                      "1e-6, 1/10",    "1e-4, 1/50", "1e-4, 1/100", NULL};
@@ -32,8 +37,8 @@ static const struct {
 typedef struct distance_state {
     const mt_mesh *mesh;
     mt_mesh *coarse;
-    double diagonal;
-    bool judges_both; /* directions; else that from the coarse copy alone */
+    double diagonal, reach; /* reach: the largest coordinate */
+    bool judges_both;       /* directions; else that from the coarse copy alone */
     distance_oracle from_coarse, to_coarse;
     mt_deviation found;
 } distance_state;
@@ -98,6 +103,13 @@ static mt_status ask_oracle(mt_context *context, distance_state *s)
     return status;
 }
 
+static double largest_coordinate(const mt_mesh *mesh)
+{
+    mt_bounds bounds = mt_mesh_bounds(mesh);
+    mt_vec3 a = bounds.minimum, b = bounds.maximum;
+    return fmax(fmax(fmax(fabs(a.x), fabs(b.x)), fmax(fabs(a.y), fabs(b.y))), fmax(fabs(a.z), fabs(b.z)));
+}
+
 static mt_status prepare(const tradeoff_subject *subject, void **state, const char **why)
 {
     mt_context *context = subject->job->context;
@@ -112,6 +124,7 @@ static mt_status prepare(const tradeoff_subject *subject, void **state, const ch
     }
     s->mesh = subject->mesh;
     s->diagonal = subject->diagonal;
+    s->reach = largest_coordinate(s->mesh);
     mt_triangulation triangulation = {0};
     mt_status status = mt_triangulation_init(context, s->mesh, &triangulation);
     if (status == MT_OK) {
@@ -121,6 +134,10 @@ static mt_status prepare(const tradeoff_subject *subject, void **state, const ch
     mt_triangulation_release(context, &triangulation);
     if (status == MT_OK && s->coarse->face_count == 0) {
         *why = "no face of the mesh is large enough to be left in a coarse copy of it";
+        return MT_OK;
+    }
+    if (status == MT_OK && s->coarse->face_count > COARSE_TRIANGLES) {
+        *why = "a coarse copy of the mesh has too many faces to be bounded in 113 bits";
         return MT_OK;
     }
     return status == MT_OK ? ask_oracle(context, s) : status;
@@ -147,7 +164,7 @@ static void discard(void *state, mt_context *context)
     mt_deviation_release(context, &s->found);
 }
 
-/* What is off in one direction, in diagonals; of the mean, no less than what the oracle knows of it. */
+/* What is off in one direction, in diagonals; no less than what the oracle knows. */
 typedef struct error_of_side {
     double maximum, mean;
     bool is_broken; /* the true maximum is not where it was said to be */
@@ -155,10 +172,15 @@ typedef struct error_of_side {
 
 static error_of_side compare(const distance_state *s, const mt_deviation_side *found, const distance_oracle *right)
 {
-    double rounding = ROUNDING * s->diagonal;
-    error_of_side error = {fmax(0, right->lower - found->max) / s->diagonal,
-                           fmax(fabs(found->mean - right->mean), right->mean_error) / s->diagonal, false};
-    error.is_broken = found->max > right->upper + rounding || found->max + found->max_error < right->lower - rounding;
+    double rounding = ROUNDING * s->diagonal + COORDINATE_ROUNDING * s->reach;
+    bool is_known = right->upper - right->lower <= 2 * ORACLE_TOLERANCE * s->diagonal + rounding;
+    double mean = fabs(found->mean - right->mean);
+    error_of_side error = {fmax(0, (is_known ? right->lower : right->upper) - found->max) / s->diagonal,
+                           (mean > right->mean_error ? mean : right->mean_error) / s->diagonal, false};
+    /* Written so that what is no number is wrong. */
+    error.is_broken =
+        !(found->max <= right->upper + rounding && found->max + found->max_error >= right->lower - rounding) ||
+        isnan(found->mean) != isnan(right->mean);
     return error;
 }
 

@@ -160,7 +160,8 @@ static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_
     double largest = 0, squares = 0;
     for (mt_index vertex = 0; is_same && vertex < back->vertex_count; vertex++) {
         mt_vec3 p = mt_mesh_position(s->triangles, vertex), q = mt_mesh_position(back, vertex);
-        double distance = mt_vec3_length(mt_vec3_subtract(p, q)) / s->diagonal;
+        double distance =
+            mt_vec3_is_finite(q) ? mt_vec3_length(mt_vec3_subtract(p, q)) / s->diagonal : (double)INFINITY;
         largest = fmax(largest, distance);
         squares += distance * distance;
     }

@@ -111,8 +111,11 @@ static mt_status judge_normals(const storage_state *s, size_t level, mt_context 
             mt_vec3 n = mt_vec3_make(mt_attribute_get(normals, value, 0), mt_attribute_get(normals, value, 1),
                                      mt_attribute_get(normals, value, 2));
             double degrees = tradeoff_degrees_between(n, quad3_round(s->normals[vertex]));
-            if (!isnan(degrees)) {
-                errors[count++] = degrees;
+            /* Where there is a normal and none was found, all is wrong. */
+            mt_vec3 right = quad3_round(s->normals[vertex]);
+            bool has_normal = mt_vec3_is_finite(right) && mt_vec3_dot(right, right) > 0;
+            if (!isnan(degrees) || has_normal) {
+                errors[count++] = isnan(degrees) ? 180 : degrees;
             }
         }
         *out = tradeoff_statistics_of(errors, count);
@@ -137,7 +140,8 @@ static double bounds_error(const storage_state *s)
     const double minimum[3] = {s->bounds.minimum.x, s->bounds.minimum.y, s->bounds.minimum.z};
     const double maximum[3] = {s->bounds.maximum.x, s->bounds.maximum.y, s->bounds.maximum.z};
     for (int axis = 0; axis < 3; axis++) {
-        worst = fmax(worst, fmax(fabs(minimum[axis] - low[axis]), fabs(maximum[axis] - high[axis])));
+        double off = fmax(fabs(minimum[axis] - low[axis]), fabs(maximum[axis] - high[axis]));
+        worst = off <= worst ? worst : isnan(minimum[axis] + maximum[axis]) ? (double)INFINITY : off;
     }
     return worst / s->diagonal;
 }

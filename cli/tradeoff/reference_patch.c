@@ -103,7 +103,8 @@ double reference_patch_error(const reference_patch *patch, const mt_mesh *mesh, 
             mt_vec3 found = mt_mesh_position(refined, refined->corner_vertices[begin + side]);
             quad3 right = patch->refined.positions[patch->refined.corners[4 * (size_t)i + side]];
             quad3 d = quad3_subtract(quad3_from(found), right);
-            worst = fmax(worst, (double)quad_sqrt(quad3_dot(d, d)));
+            double off = (double)quad_sqrt(quad3_dot(d, d));
+            worst = off <= worst ? worst : isnan(off) ? (double)INFINITY : off;
         }
     }
     return worst;

@@ -52,6 +52,10 @@ unsigned mt_jpeg_orientation(const mt_input *input)
     uint64_t at = 2;
     for (int i = 0; i < SEGMENT_ROOM && read_all(input, at, head, sizeof head) && head[0] == 0xff && head[1] != 0xda;
          i++) {
+        if (head[1] == 0xff) { /* any number of these may stand before a marker (ITU T.81, B.1.1.2) */
+            at++;
+            continue;
+        }
         if (head[1] == 0xe1 && memcmp(head + 4, "Exif\0", 6) == 0) {
             return search_directory(input, at + sizeof head);
         }

@@ -7,6 +7,9 @@
 
 #include <string.h>
 
+/* Each is compared with all before it, which would take too long for more. */
+#define NAMES_COMPARED 4096U
+
 static bool is_blank(uint8_t c)
 {
     return c == ' ' || c == '\t';
@@ -83,9 +86,27 @@ static bool holds_attribute(const mt_mesh *mesh, const mt_attribute *attribute, 
            attribute == mt_obj_written_attribute(mesh, attribute->semantic);
 }
 
+/* Whether objects by these names are told apart: none goes unnamed, and no two have one name. */
+static bool are_told_apart(const mt_labels *labels)
+{
+    for (mt_index i = 0; i < labels->name_count; i++) {
+        if (!labels->names[i][0]) {
+            return false;
+        }
+        for (mt_index j = 0; j < i && i < NAMES_COMPARED; j++) {
+            if (strcmp(labels->names[i], labels->names[j]) == 0) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Parts and solids, which stand in for objects, may have any names. */
 static bool holds_labels(const mt_mesh *mesh, const mt_labels *labels)
 {
-    return labels->kind <= MT_LABEL_SMOOTHING || labels == mt_obj_written_labels(mesh, MT_LABEL_OBJECT);
+    return labels->kind <= MT_LABEL_SMOOTHING ||
+           (labels == mt_obj_written_labels(mesh, MT_LABEL_OBJECT) && are_told_apart(labels));
 }
 
 const mt_mesh_format mt_obj_format = {

@@ -44,6 +44,16 @@ static mt_status find_wrong_reference(mt_context *context, mt_obj_reader *reader
     return MT_OK;
 }
 
+/* Relative references are settled, or wrong. */
+static void release_lists(mt_context *context, mt_obj_reader *reader)
+{
+    static const mt_obj_series lists[] = {MT_OBJ_RELATIVE_CORNERS, MT_OBJ_RELATIVE_UVS, MT_OBJ_RELATIVE_NORMALS,
+                                          MT_OBJ_RELATIVE_WIRES, MT_OBJ_RELATIVE_POINTS};
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        mt_obj_release_series(context, reader, lists[i]);
+    }
+}
+
 static mt_status create_reader(mt_context *context, mt_obj_reader *reader)
 {
     uint64_t blocks = mt_text_block_count(reader->text);
@@ -120,6 +130,7 @@ mt_status mt_obj_read(mt_context *context, mt_input *input, const mt_mesh_read_o
     if (status == MT_OK) {
         mt_obj_resolve(context, &reader);
         status = find_wrong_reference(context, &reader);
+        release_lists(context, &reader);
     }
     if (status == MT_OK) {
         status = mt_obj_merge(context, &reader, out);

@@ -62,8 +62,12 @@ bool mt_obj_reserve_slowly(mt_context *context, mt_obj_block *block, mt_obj_seri
 {
     mt_obj_store *store = block->store;
     size_t item = mt_obj_item_size(series), held = block->counts[series] * item;
-    size_t size = next_size(store, series, held, held + more * item);
+    size_t needed = held + more * item, size = next_size(store, series, held, needed);
     mt_obj_piece *piece = mt_try_allocate(context, PIECE_HEADER + (uint64_t)size);
+    if (!piece && size > needed) {
+        size = needed;
+        piece = mt_try_allocate(context, PIECE_HEADER + (uint64_t)size);
+    }
     if (!piece) {
         return false;
     }

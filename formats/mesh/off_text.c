@@ -159,7 +159,7 @@ static mt_status find_sides(mt_off_reader *reader)
     mt_status status =
         mt_text_parse_some(reader->context, reader->text, "counting", block, block + 1, look_at_first_face, reader);
     if (reader->sides < 3 || !mt_checked_multiply(reader->sides, reader->header.face_count, &corners) ||
-        corners > mt_text_size(reader->text) / 2) {
+        corners > mt_text_size(reader->text) / 2 || !mt_count_fits(corners)) {
         reader->sides = 0;
     }
     return status;
@@ -179,7 +179,8 @@ static bool forget_differing(mt_off_reader *reader)
     return differs;
 }
 
-/* Reads all as if every face had the sides of the first. *done is false when one has not. */
+/* Reads all as if every face had the sides of the first. *done is false when one has not, or for so many corners there
+ * is no memory. */
 static mt_status read_uniform(mt_off_reader *reader, bool *done)
 {
     *done = false;
@@ -199,7 +200,8 @@ static mt_status read_uniform(mt_off_reader *reader, bool *done)
         status = mt_text_parse(reader->context, reader->text, "reading", parse_block, reader);
         *done = !forget_differing(reader);
     }
-    if (status != MT_OK && !*done && reader->mesh) {
+    /* Faces that differ need less, perhaps, than was asked for. */
+    if (status != MT_OK && !*done) {
         mt_context_clear_error(reader->context);
         mt_mesh_destroy(reader->context, reader->mesh);
         reader->mesh = NULL;

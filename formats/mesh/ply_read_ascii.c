@@ -190,7 +190,8 @@ static mt_status find_sides(ascii_reader *r)
     return status;
 }
 
-/* Reads all as if every face were like the first. *done is false when one is not, or the first is of no use. */
+/* Reads all as if every face were like the first. *done is false when one is not, the first is of no use, or for
+ * so many corners there is no memory. */
 static mt_status read_uniform(ascii_reader *r, bool *done)
 {
     mt_mesh *mesh = r->plan->mesh;
@@ -199,12 +200,14 @@ static mt_status read_uniform(ascii_reader *r, bool *done)
     if (status != MT_OK || r->sides == 0) {
         return status;
     }
-    mt_free(r->context, mesh->corner_vertices); /* of a mesh that has none */
-    mesh->corner_vertices = mt_allocate_array(r->context, r->sides * mesh->face_count, sizeof *mesh->corner_vertices);
-    if (!mesh->corner_vertices) {
-        return MT_ERROR_OUT_OF_MEMORY;
+    /* Faces that differ may need less than these. */
+    mt_index *corners = mt_try_allocate(r->context, r->sides * mesh->face_count * sizeof *corners);
+    if (!corners) {
+        return MT_OK;
     }
-    lend_corners(r, mesh->corner_vertices, r->sides);
+    mt_free(r->context, mesh->corner_vertices); /* of a mesh that has none */
+    mesh->corner_vertices = corners;
+    lend_corners(r, corners, r->sides);
     status = mt_text_parse(r->context, r->text, "reading PLY", parse_block, r);
     lend_corners(r, NULL, 0);
     if (r->differs) {

@@ -87,7 +87,7 @@ static int8_t sign_of(const component_volume *volume, mt_arithmetic how)
         return UNDECIDED;
     }
     if (how == MT_ARITHMETIC_FLOATING) {
-        return (int8_t)((volume->sum > 0) - (volume->sum < 0));
+        return (int8_t)(isfinite(volume->sum) ? (volume->sum > 0) - (volume->sum < 0) : 0);
     }
     double count = volume->triangle_count;
     double bound = (TERM_ERROR + count * ADDITION_ERROR) * volume->size + count * UNDERFLOW_ERROR;

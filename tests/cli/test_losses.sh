@@ -64,4 +64,12 @@ mkdir beside && sed 's/"data:.*"/"buffer.bin"/' "$plain" | gzip >beside/plain.gl
 sed 's/.*base64,//; s/".*//' "$plain" | base64 -d >beside/buffer.bin
 run 0 info beside/plain.gltf.gz
 quiet "a compressed glTF file with its buffer beside it"
+# Solids that no name tells apart are lost in OBJ, and said to be.
+for names in ' ' 'a a' 'a b'; do
+  for name in "${names% *}" "${names#* }"; do
+    printf 'solid %s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n' "$name"
+  done >two.stl
+  run "$([ "$names" = 'a b' ] && echo 0 || echo 3)" convert two.stl two.obj --strict-loss
+done
+
 finish

@@ -58,6 +58,14 @@ holds "the sample is as exact" grep -q "f64: normals up to [0-9]e-1[45] degrees 
 run 0 tradeoff "$folder/torus.ply" --budget 0 --knob distance --json
 holds "every level is there" test "$(grep -o '"largest_off": ' <<<"$out" | wc -l)" = 8
 prints '"level": "1e-6, 1/10"'
+# Of a face that is not finite the finite corners are looked at; far from the origin samples are rounded to what is there.
+printf 'OFF\n11 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n10 0 0\n10 1 0\nnan 0 0
+4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 2 3 7 6\n3 8 9 10\n' >"$folder/nan.off"
+run 0 tradeoff "$folder/nan.off" --budget 0 --knob distance
+sed 's/nan 0 0/inf 0 0/' "$folder/nan.off" >"$folder/inf.off"
+run 0 tradeoff "$folder/inf.off" --budget 0 --knob distance --plot "$folder/inf.svg"
+"$meshtool" convert "$folder/torus.ply" "$folder/far.ply" --precision f64 --translate 5e6,3e6,1e6
+run 0 tradeoff "$folder/far.ply" --budget 0 --knob distance
 "$meshtool" generate extreme:sliver -o "$folder/sliver.ply"
 run 0 tradeoff "$folder/sliver.ply" --budget 0 --knob distance
 prints "distance: left out, no face of the mesh is large enough"

@@ -48,8 +48,8 @@ const mt_image_format *mt_image_format_by_extension(const char *extension);
 const mt_image_format *mt_image_format_for_output(mt_context *context, const char *path,
                                                   const mt_image_write_options *options);
 
-/* How many bits a channel are written; options may be NULL. MT_ERROR_ARGUMENT, which lists those that there are, when the
- * format has none of that size, and for a quality where it has none. */
+/* How many bits a channel are written; options may be NULL. MT_ERROR_ARGUMENT, which lists those that there are, when
+ * the format has none of that size, and for a quality where it has none. */
 mt_status mt_image_written_bits(mt_context *context, const mt_image_format *format,
                                 const mt_image_write_options *options, unsigned *bits);
 
