@@ -1,5 +1,6 @@
 /* How many bits Draco and glTF keep of a coordinate. Vertices keep their order, so that what a reader gets is held
- * against what was written, vertex by vertex. */
+ * against what was written, vertex by vertex; of glTF also what its integers say without the reader. */
+#include "tradeoff/glb_oracle.h"
 #include "tradeoff/reference_surface.h"
 #include "tradeoff/tradeoff.h"
 
@@ -147,6 +148,12 @@ static double bound_of(const quantization_state *s, size_t level)
     return sqrt(3) * (0.5 * s->extent / ((1u << ways[level].bits) - 1) + rounded) / s->diagonal;
 }
 
+/* What is not finite is as far as can be. */
+static double distance_between(mt_vec3 right, mt_vec3 found)
+{
+    return mt_vec3_is_finite(found) ? mt_vec3_length(mt_vec3_subtract(right, found)) : (double)INFINITY;
+}
+
 static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_row *row)
 {
     const quantization_state *s = state;
@@ -157,14 +164,26 @@ static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_
         return status;
     }
     bool is_same = back->vertex_count == s->triangles->vertex_count && back->face_count == s->triangles->face_count;
-    double largest = 0, squares = 0;
+    double largest = 0, squares = 0, *integers = NULL;
+    if (is_same && !ways[level].is_draco) {
+        integers = mt_allocate_array(context, 3 * (uint64_t)back->vertex_count, sizeof *integers);
+        if (!integers) {
+            mt_mesh_destroy(context, back);
+            return MT_ERROR_OUT_OF_MEMORY;
+        }
+        is_same = glb_oracle_positions(s->bytes, s->size, back->vertex_count, integers);
+    }
     for (mt_index vertex = 0; is_same && vertex < back->vertex_count; vertex++) {
-        mt_vec3 p = mt_mesh_position(s->triangles, vertex), q = mt_mesh_position(back, vertex);
-        double distance =
-            mt_vec3_is_finite(q) ? mt_vec3_length(mt_vec3_subtract(p, q)) / s->diagonal : (double)INFINITY;
+        mt_vec3 right = mt_mesh_position(s->triangles, vertex);
+        double distance = distance_between(right, mt_mesh_position(back, vertex)) / s->diagonal;
+        if (integers) {
+            const double *p = integers + 3 * (size_t)vertex;
+            distance = fmax(distance, distance_between(right, mt_vec3_make(p[0], p[1], p[2])) / s->diagonal);
+        }
         largest = fmax(largest, distance);
         squares += distance * distance;
     }
+    mt_free(context, integers);
     mt_index flipped = 0, collapsed = 0;
     if (is_same) {
         count_spoilt(s->triangles, back, &flipped, &collapsed);
@@ -185,7 +204,7 @@ static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_
 const tradeoff_knob tradeoff_quantization = {
     .name = "quantization",
     .question = "How many bits of a coordinate do Draco and glTF keep?",
-    .oracle = "what is read back, vertex by vertex",
+    .oracle = "what libdraco reads back, and glTF's integers by themselves, vertex by vertex",
     .axis = "moved_max",
     .levels = levels,
     .prepare = prepare,
