@@ -11,6 +11,9 @@
 
 /* Pieces looked at, for the largest distance and for the mean, beside those that are one a triangle. */
 #define PIECE_WORK 100000U
+/* Boxes and triangles that either search may look at; a round that was begun is ended. */
+#define SEARCH_WORK 60000000U
+#define GUESSES 4000U
 #define PATCH_WORK 10000U
 #define ROUNDS 60
 
@@ -75,6 +78,23 @@ static double distance_to(const surfaces *s, mt_index triangle, mt_vec3 point)
     mt_vec3 corners[3];
     quad_load_corners(s->to, &s->to_triangles, triangle, corners);
     return quad_distance_to_triangle(corners, point);
+}
+
+/* A first guess: of triangles along the whole curve the one whose first corner is nearest, so that a search of a large
+ * mesh has a bound from the beginning. */
+static mt_index guess_near(const surfaces *s, mt_vec3 point)
+{
+    mt_index near = s->blocks.order[0], step = s->blocks.count / GUESSES;
+    double least = INFINITY;
+    for (mt_index i = 0; step > 1 && i < s->blocks.count; i += step) {
+        mt_index corner = mt_triangulation_corner(&s->to_triangles, s->blocks.order[i], 0);
+        double distance =
+            mt_vec3_length(mt_vec3_subtract(mt_mesh_position(s->to, s->to->corner_vertices[corner]), point));
+        if (distance < least) {
+            least = distance, near = s->blocks.order[i];
+        }
+    }
+    return near;
 }
 
 /* *near begins as a guess. */
@@ -158,12 +178,12 @@ static mt_index begin_pieces(surfaces *s)
         mt_vec3 p[3];
         quad_load_corners(s->from, &s->from_triangles, i, p);
         if (are_finite(p)) {
-            s->pieces[count++] = (piece){{p[0], p[1], p[2]}, s->blocks.order[0], 0};
+            s->pieces[count++] = (piece){{p[0], p[1], p[2]}, guess_near(s, p[0]), 0};
             continue;
         }
         for (int side = 0; side < 3; side++) {
             if (mt_vec3_is_finite(p[side])) {
-                s->pieces[count++] = (piece){{p[side], p[side], p[side]}, s->blocks.order[0], 0};
+                s->pieces[count++] = (piece){{p[side], p[side], p[side]}, guess_near(s, p[side]), 0};
             }
         }
     }
@@ -215,7 +235,8 @@ static mt_status find_largest(mt_context *context, surfaces *s, double tolerance
             out->lower = fmax(out->lower, s->lowers[i]);
         }
         work += count;
-        mt_index room = round < ROUNDS && work < PIECE_WORK ? PIECE_WORK - work : 0;
+        bool goes_on = round < ROUNDS && work < PIECE_WORK && s->blocks.work < SEARCH_WORK;
+        mt_index room = goes_on ? PIECE_WORK - work : 0;
         status = keep_pieces(context, s, &count, room, tolerance, out);
         status = status == MT_OK ? mt_progress(context, "bounding the distance in 113 bits", 0.5) : status;
     }
@@ -276,8 +297,9 @@ static void begin_patches(void *user, uint64_t begin, uint64_t end)
     surfaces *s = user;
     for (uint64_t at = begin; at < end; at++) {
         patch *p = &s->patches[at];
-        *p = (patch){.shape.near = s->blocks.order[0]};
+        *p = (patch){0};
         quad_load_corners(s->from, &s->from_triangles, (mt_index)at, p->shape.corners);
+        p->shape.near = guess_near(s, p->shape.corners[0]);
         if (!are_finite(p->shape.corners)) {
             continue; /* left out */
         }
@@ -343,7 +365,8 @@ static mt_status find_mean(mt_context *context, surfaces *s, double tolerance, d
         }
         mt_parallel_for(context, count, 16, split_patches, s);
         work += count;
-        status = keep_patches(context, s, &count, tolerance * area, work > PATCH_WORK, sums);
+        bool ends = work > PATCH_WORK || s->blocks.work > 2 * (uint64_t)SEARCH_WORK;
+        status = keep_patches(context, s, &count, tolerance * area, ends, sums);
         mt_free(context, s->quarters);
         s->quarters = NULL;
         status = status == MT_OK ? mt_progress(context, "integrating the distance in 113 bits", 0.5) : status;

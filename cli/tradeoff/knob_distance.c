@@ -164,7 +164,8 @@ static void discard(void *state, mt_context *context)
     mt_deviation_release(context, &s->found);
 }
 
-/* What is off in one direction, in diagonals; no less than what the oracle knows. */
+/* What is off in one direction, in diagonals: of the largest distance not a number where the oracle ended before it
+ * knew, of the mean no less than what the oracle knows. */
 typedef struct error_of_side {
     double maximum, mean;
     bool is_broken; /* the true maximum is not where it was said to be */
@@ -175,7 +176,7 @@ static error_of_side compare(const distance_state *s, const mt_deviation_side *f
     double rounding = ROUNDING * s->diagonal + COORDINATE_ROUNDING * s->reach;
     bool is_known = right->upper - right->lower <= 2 * ORACLE_TOLERANCE * s->diagonal + rounding;
     double mean = fabs(found->mean - right->mean);
-    error_of_side error = {fmax(0, (is_known ? right->lower : right->upper) - found->max) / s->diagonal,
+    error_of_side error = {is_known ? fmax(0, right->lower - found->max) / s->diagonal : (double)NAN,
                            (mean > right->mean_error ? mean : right->mean_error) / s->diagonal, false};
     /* Written so that what is no number is wrong. */
     error.is_broken =
@@ -193,8 +194,9 @@ static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_
     double claim = s->found.b_to_a.max_error;
     if (s->judges_both) {
         error_of_side other = compare(s, &s->found.a_to_b, &s->to_coarse);
-        error = (error_of_side){fmax(error.maximum, other.maximum), fmax(error.mean, other.mean),
-                                error.is_broken || other.is_broken};
+        bool is_known = !isnan(error.maximum) && !isnan(other.maximum);
+        error = (error_of_side){is_known ? fmax(error.maximum, other.maximum) : (double)NAN,
+                                fmax(error.mean, other.mean), error.is_broken || other.is_broken};
         claim = fmax(claim, s->found.a_to_b.max_error);
     }
     tradeoff_add_error(row, "largest_off", error.maximum);
@@ -205,6 +207,12 @@ static mt_status judge(void *state, size_t level, mt_context *context, tradeoff_
     row->is_defect = error.is_broken;
     if (error.is_broken) {
         snprintf(row->says, sizeof row->says, "the largest distance is not within the error that was stated: a defect");
+    } else if (isnan(error.maximum)) {
+        snprintf(
+            row->says, sizeof row->says,
+            "the largest distance is %.1g of the diagonal too small at most by its own account, which 113 bits do not "
+            "contradict; the mean is %.1g off",
+            claim / s->diagonal, error.mean);
     } else {
         snprintf(row->says, sizeof row->says,
                  "the largest distance is %.1g of the diagonal too small, %.1g at most by its own account; the mean is "
