@@ -121,15 +121,17 @@ static cli_exit tell(const cli_job *job, const tradeoff_subject *subject, const 
     return code;
 }
 
-static double diagonal_of(const mt_mesh *mesh)
+static tradeoff_subject subject_of(const cli_job *job, const mt_mesh *mesh)
 {
+    tradeoff_subject subject = {.job = job, .name = job->operands[0], .mesh = mesh};
     mt_bounds bounds = mt_mesh_bounds(mesh);
-    if (bounds.finite_count == 0) {
-        return 0;
+    if (bounds.finite_count > 0) {
+        mt_vec3 size = mt_vec3_subtract(bounds.maximum, bounds.minimum);
+        double scale = mt_power_of_two_scale(mt_vec3_max_abs(size));
+        subject.diagonal = mt_vec3_length(mt_vec3_scale(size, scale)) / scale;
+        subject.reach = fmax(mt_vec3_max_abs(bounds.minimum), mt_vec3_max_abs(bounds.maximum));
     }
-    mt_vec3 size = mt_vec3_subtract(bounds.maximum, bounds.minimum);
-    double scale = mt_power_of_two_scale(mt_vec3_max_abs(size));
-    return mt_vec3_length(mt_vec3_scale(size, scale)) / scale;
+    return subject;
 }
 
 static cli_exit run(const cli_job *job)
@@ -157,7 +159,7 @@ static cli_exit run(const cli_job *job)
     }
     if (code == CLI_EXIT_DONE) {
         static tradeoff_table table;
-        tradeoff_subject subject = {job, job->operands[0], mesh, diagonal_of(mesh)};
+        tradeoff_subject subject = subject_of(job, mesh);
         code = measure(&subject, only, &table) == MT_OK ? tell(job, &subject, &table)
                                                         : cli_report_failure(job, job->operands[0]);
     }

@@ -103,13 +103,6 @@ static mt_status ask_oracle(mt_context *context, distance_state *s)
     return status;
 }
 
-static double largest_coordinate(const mt_mesh *mesh)
-{
-    mt_bounds bounds = mt_mesh_bounds(mesh);
-    mt_vec3 a = bounds.minimum, b = bounds.maximum;
-    return fmax(fmax(fmax(fabs(a.x), fabs(b.x)), fmax(fabs(a.y), fabs(b.y))), fmax(fabs(a.z), fabs(b.z)));
-}
-
 static mt_status prepare(const tradeoff_subject *subject, void **state, const char **why)
 {
     mt_context *context = subject->job->context;
@@ -124,7 +117,7 @@ static mt_status prepare(const tradeoff_subject *subject, void **state, const ch
     }
     s->mesh = subject->mesh;
     s->diagonal = subject->diagonal;
-    s->reach = largest_coordinate(s->mesh);
+    s->reach = subject->reach;
     mt_triangulation triangulation = {0};
     mt_status status = mt_triangulation_init(context, s->mesh, &triangulation);
     if (status == MT_OK) {

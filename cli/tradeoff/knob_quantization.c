@@ -38,11 +38,6 @@ typedef struct quantization_state {
     size_t size;
 } quantization_state;
 
-static double largest_of(mt_vec3 v)
-{
-    return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
-}
-
 static const char *reason_against(const mt_mesh *mesh, double reach)
 {
     return mesh->face_count == 0                       ? "the mesh has no faces"
@@ -55,8 +50,7 @@ static mt_status prepare(const tradeoff_subject *subject, void **state, const ch
 {
     mt_context *context = subject->job->context;
     mt_bounds bounds = mt_mesh_bounds(subject->mesh);
-    double reach = fmax(largest_of(bounds.minimum), largest_of(bounds.maximum));
-    *why = reason_against(subject->mesh, reach);
+    *why = reason_against(subject->mesh, subject->reach);
     if (*why) {
         return MT_OK;
     }
@@ -66,8 +60,8 @@ static mt_status prepare(const tradeoff_subject *subject, void **state, const ch
         return MT_ERROR_OUT_OF_MEMORY;
     }
     s->diagonal = subject->diagonal;
-    s->extent = largest_of(mt_vec3_subtract(bounds.maximum, bounds.minimum));
-    s->reach = reach;
+    s->extent = mt_vec3_max_abs(mt_vec3_subtract(bounds.maximum, bounds.minimum));
+    s->reach = subject->reach;
     mt_mesh *bare = NULL; /* seams would have Draco part their vertices */
     mt_status status = tradeoff_bare_mesh(context, subject->mesh, subject->mesh->position_type, &bare);
     if (status == MT_OK) {

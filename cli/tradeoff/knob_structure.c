@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <time.h>
 
 #define RAY_COUNT 50000
 /* Triangles that brute force, and the oracle, are asked about in all. */
@@ -44,13 +43,6 @@ typedef struct structure_state {
     double build_seconds, trace_seconds;
 } structure_state;
 
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 static void aim(structure_state *s, double diagonal)
 {
     mt_bounds bounds = mt_mesh_bounds(s->mesh);
@@ -85,10 +77,10 @@ static mt_status ask_brute_force(structure_state *s, mt_context *context)
     size_t count = ORACLE_WORK / (s->triangulation.triangle_count + 1) + 1;
     s->oracle_count = count < ORACLE_RAYS ? count : ORACLE_RAYS;
     if (status == MT_OK) {
-        double begin = now();
+        double begin = tradeoff_now();
         s->searched = none;
         mt_parallel_for(context, s->oracle_count, 16, trace, s);
-        s->brute_seconds = (now() - begin) / (double)s->oracle_count;
+        s->brute_seconds = (tradeoff_now() - begin) / (double)s->oracle_count;
         for (size_t i = 0; i < s->oracle_count; i++) {
             s->brute[i] = s->hits[i];
         }
@@ -152,16 +144,16 @@ static void release(void *state, mt_context *context)
 static mt_status run(void *state, size_t level, mt_context *context)
 {
     structure_state *s = state;
-    double begin = now();
+    double begin = tradeoff_now();
     mt_status status = mt_ray_structure_create(context, s->mesh, &s->triangulation, made[level].kind,
                                                made[level].quality, &s->structure);
     if (status != MT_OK) {
         return status;
     }
-    s->build_seconds = now() - begin;
+    s->build_seconds = tradeoff_now() - begin;
     s->searched = s->structure;
     mt_parallel_for(context, RAY_COUNT, 512, trace, s);
-    s->trace_seconds = now() - begin - s->build_seconds;
+    s->trace_seconds = tradeoff_now() - begin - s->build_seconds;
     return MT_OK;
 }
 

@@ -40,6 +40,7 @@ typedef struct tradeoff_subject {
     const char *name;
     const mt_mesh *mesh;
     double diagonal; /* of the box around its finite vertices */
+    double reach;    /* the largest of their coordinates, without its sign */
 } tradeoff_subject;
 
 struct tradeoff_knob {
