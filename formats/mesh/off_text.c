@@ -4,10 +4,9 @@
  * that turns out wrong, a pass looks at the sides of all, and the last is run again. Linear time; memory: the mesh, and
  * colours twice. */
 #include "formats/mesh/off_lines.h"
+#include "formats/mesh/uniform_faces.h"
 
 #include "formats/stream/input.h"
-
-#include <meshtool/checked.h>
 
 /* Where the body begins in the block. */
 static const char *body_begin(const mt_off_reader *reader, const mt_text_block *block)
@@ -149,17 +148,16 @@ static uint64_t first_face_block(const mt_off_reader *reader)
     return first;
 }
 
-/* Finds out the sides of the first face, where the text is long enough for as many of all, two bytes a corner. */
+/* Finds out the sides of the first face, where all may have as many. */
 static mt_status find_sides(mt_off_reader *reader)
 {
-    uint64_t block = first_face_block(reader), corners;
+    uint64_t block = first_face_block(reader);
     if (block == reader->block_count || reader->header.face_count == 0) {
         return MT_OK;
     }
     mt_status status =
         mt_text_parse_some(reader->context, reader->text, "counting", block, block + 1, look_at_first_face, reader);
-    if (reader->sides < 3 || !mt_checked_multiply(reader->sides, reader->header.face_count, &corners) ||
-        corners > mt_text_size(reader->text) / 2 || !mt_count_fits(corners)) {
+    if (!mt_may_be_uniform(reader->text, reader->sides, reader->header.face_count)) {
         reader->sides = 0;
     }
     return status;

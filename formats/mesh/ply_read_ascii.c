@@ -3,10 +3,9 @@
  * as the first; where one has not, all is parsed again, and the faces are gathered by block and joined at the end. */
 #include "formats/mesh/ply_body.h"
 #include "formats/mesh/ply_lines.h"
+#include "formats/mesh/uniform_faces.h"
 #include "formats/stream/cursor.h"
 #include "formats/stream/text.h"
-
-#include <meshtool/checked.h>
 
 typedef struct ascii_reader {
     mt_context *context;
@@ -170,11 +169,10 @@ static void look_at_first_face(void *user, mt_text_block *block)
     }
 }
 
-/* Finds out the sides of the first face, where all may go straight to their places: the text is long enough for them,
- * two bytes a corner. */
+/* Finds out the sides of the first face, where all may have as many and go straight to their places. */
 static mt_status find_sides(ascii_reader *r)
 {
-    uint64_t blocks = mt_text_block_count(r->text), block = 0, corners;
+    uint64_t blocks = mt_text_block_count(r->text), block = 0;
     if (r->plan->mesh->face_count == 0 || r->plan->has_corner_uvs) {
         return MT_OK;
     }
@@ -183,8 +181,7 @@ static mt_status find_sides(ascii_reader *r)
     }
     mt_status status = mt_text_parse_some(r->context, r->text, "reading PLY", block, block < blocks ? block + 1 : block,
                                           look_at_first_face, r);
-    if (r->sides < 3 || !mt_checked_multiply(r->sides, r->plan->mesh->face_count, &corners) ||
-        corners > mt_text_size(r->text) / 2 || !mt_count_fits(corners)) {
+    if (!mt_may_be_uniform(r->text, r->sides, r->plan->mesh->face_count)) {
         r->sides = 0;
     }
     return status;
