@@ -402,3 +402,12 @@ void test_manifold_reference(const mt_mesh *mesh, mt_manifold_report *report)
     measure(mesh, report);
     classify(mesh, report);
 }
+
+bool test_is_same_element(const mt_defect *a, const mt_defect *b)
+{
+    if (a->vertex_count != b->vertex_count || a->face_count != b->face_count) {
+        return false;
+    }
+    return memcmp(a->vertices, b->vertices, a->vertex_count * sizeof(mt_index)) == 0 &&
+           memcmp(a->faces, b->faces, a->face_count * sizeof(mt_index)) == 0;
+}

@@ -15,6 +15,9 @@ bool test_vertex_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index ve
 bool test_face_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index face);
 bool test_edge_is_defect(const mt_mesh *mesh, mt_defect_kind kind, mt_index a, mt_index b);
 
+/* Whether two defects of a kind name the same vertices and faces. */
+bool test_is_same_element(const mt_defect *a, const mt_defect *b);
+
 /* Whether the face is the first of a component that is inside out, and whether three points are exactly on one line:
  * the latter for coordinates whose bits span little more than a double's, as those of small whole numbers moved and
  * scaled do, the former for such whose differences have 38 bits, and false for others. */
