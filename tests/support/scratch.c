@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static char folder[64];
+static char folder[192];
 static pid_t owner, writer;
 
 static void remove_folder(void)
@@ -34,7 +34,9 @@ static void remove_folder(void)
 static void make_folder(void)
 {
     if (!folder[0]) {
-        strcpy(folder, "/tmp/meshtool-test-XXXXXX");
+        const char *place = getenv("TMPDIR");
+        int length = snprintf(folder, sizeof folder, "%s/meshtool-test-XXXXXX", place && place[0] ? place : P_tmpdir);
+        assert_in_range(length, 1, sizeof folder - 1);
         assert_non_null(mkdtemp(folder));
         owner = getpid();
         atexit(remove_folder);
